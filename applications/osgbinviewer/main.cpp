@@ -12,6 +12,7 @@
 #include "Settings.h"
 #include "SpyViewHandler.h"
 #include "Steps.h"
+#include "TrafficHandler.h"
 #include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -165,7 +166,9 @@ ExitCode show(osg::ArgumentParser& arguments) {
         for (const viewer::NamedDatabase& database : settings.databases) scene->addChild(readDatabase(database));
     }
     if (!error.empty()) throw std::runtime_error(error);
-    viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
+    const bool isAlone = scene->getNumChildren() == 1 && settings.traffic == 0;
+    viewer.setSceneData(isAlone ? scene->getChild(0) : scene.get());
+    if (settings.traffic > 0) viewer.addEventHandler(new viewer::TrafficHandler(*scene, settings.traffic));
     const osg::ref_ptr<viewer::SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
     viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));

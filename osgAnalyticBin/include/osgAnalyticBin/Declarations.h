@@ -15,8 +15,8 @@ namespace osgAnalyticBin {
 /// neither state nor masks nor the scale of levels of detail nor near and far planes, by the user value
 /// "osgAnalyticBin.traversesAlways" of the callback. A callback without this declaration may leave out terrain; the
 /// horizon is not used while such a callback is on a tile in view or above one, the CoordinateSystemNode and its
-/// ancestors included.
-OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
+/// ancestors included. `always` false: takes it back.
+OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback, bool always = true);
 
 /// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool traversesAlways(const osg::Callback& callback);

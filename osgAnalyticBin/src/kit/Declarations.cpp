@@ -19,8 +19,8 @@ constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 
 }  // namespace
 
-void setTraversesAlways(osg::Callback& callback) {
-    callback.setUserValue(kTraversesAlways, true);
+void setTraversesAlways(osg::Callback& callback, bool always) {
+    callback.setUserValue(kTraversesAlways, always);
 }
 
 bool traversesAlways(const osg::Callback& callback) {

@@ -14,7 +14,9 @@ namespace {
 // float(x) is off by at most half a unit of 2^-23 relative; the radius takes up three such coordinates.
 constexpr double kRadiusRounding = 1.2e-7;
 
-// An upper bound of what the linear part of a matrix stretches lengths by: the Frobenius norm, or exactly the scale
+}  // namespace
+
+// The Frobenius norm, or exactly the scale
 // where the rows are of one length and at right angles.
 double stretchOf(const osg::Matrixd& m) {
     double squares = 0.0;
@@ -31,8 +33,6 @@ double stretchOf(const osg::Matrixd& m) {
     }
     return std::sqrt(uniform) * (1.0 + 2.0 * kTolerance);
 }
-
-}  // namespace
 
 osg::BoundingSphere roundedOutward(const osg::Vec3d& center, double radius) {
     const double outward = radius + kRadiusRounding * (center.length() + radius);

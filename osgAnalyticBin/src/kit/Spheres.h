@@ -10,6 +10,9 @@
 
 namespace osgAnalyticBin {
 
+/// An upper bound of the factor by which the linear part of a matrix stretches lengths.
+[[nodiscard]] double stretchOf(const osg::Matrixd& matrix);
+
 /// A sphere, rounded outward to float, about the given one under an affine matrix.
 [[nodiscard]] osg::BoundingSphere movedSphere(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix);
 

@@ -5,8 +5,6 @@
 
 #include "../kit/tile/InstalledTile.h"
 
-#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -90,6 +88,8 @@ public:
             const Finding inPicture = candidate.isHidden ? hidden : Finding::Seen;
             _found.findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
         }
+        _found.profile.reset();
+        _found.earth = std::move(_buffer);
         return true;
     }
 

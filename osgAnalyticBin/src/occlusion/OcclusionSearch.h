@@ -12,6 +12,8 @@
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+#include <osgAnalyticBin/core/occlusion/HorizonProfile.h>
 
 #include <glm/vec3.hpp>
 
@@ -52,7 +54,9 @@ struct FoundOcclusion {
     double neededReach = 0.0;       ///< where OSG computes that plane: the same of the last view
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
-    int uses = 0;  ///< views since the search
+    std::optional<core::HorizonBuffer> earth;     ///< all that hides
+    std::optional<core::HorizonProfile> profile;  ///< the same, once it is asked for
+    int uses = 0;                                 ///< views since the search
 
     /// @{
     /// Of the last view, whether it used the result or not.

@@ -213,6 +213,17 @@ TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<
     return hidden;
 }
 
+bool TerrainOcclusion::hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) {
+    if (!_found || !_found->earth) return false;
+    FoundOcclusion& found = *_found;
+    if (!found.profile) found.profile.emplace(*found.earth);
+    const glm::dvec3 from = centre - found.eye.origin;
+    const core::BinBall ball{{glm::dot(from, found.eye.x), glm::dot(from, found.eye.y), glm::dot(from, found.eye.z)},
+                             radius};
+    const core::HorizonBuffer::Outline outline = found.profile->outlineOf(ball);
+    return (isBehindHorizon && found.profile->isAboveLowest(outline)) || found.profile->hides(outline);
+}
+
 osg::ref_ptr<TerrainHider> makeTerrainHider() {
     return new TerrainOcclusion;
 }

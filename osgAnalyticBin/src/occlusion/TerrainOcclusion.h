@@ -20,6 +20,7 @@ namespace osgAnalyticBin {
 class TerrainOcclusion final : public TerrainHider {
 public:
     [[nodiscard]] Hidden find(const View& view, const std::vector<ShownTile>& shown) override;
+    [[nodiscard]] bool hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) override;
 
 protected:
     ~TerrainOcclusion() override = default;

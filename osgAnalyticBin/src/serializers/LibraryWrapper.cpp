@@ -5,6 +5,7 @@
 
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_AnalyticBinCullCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_ContentWatch)
+USE_SERIALIZER_WRAPPER(osgAnalyticBin_HiddenByTerrainCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
 
 #if defined(_WIN32)

@@ -3,6 +3,7 @@
 
 #include "../kit/CallbackChain.h"
 
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osgUtil/CullVisitor>
@@ -105,6 +106,7 @@ void traverseBy(const CullingView& view, osgUtil::CullVisitor& visitor, const st
 }  // namespace
 
 CameraCulling::CameraCulling() : _overlay(new osg::Group) {
+    declare();
     // DYNAMIC meshes are drawn before they change; near and far planes are the scene's alone
     _overlay->setCullingActive(false);
     constexpr GLenum kDepthClamp = 0x864F;
@@ -113,6 +115,11 @@ CameraCulling::CameraCulling() : _overlay(new osg::Group) {
 }
 
 CameraCulling::~CameraCulling() = default;
+
+// By its own view the camera is culled as without this callback: what terrain hides does not depend on it.
+void CameraCulling::declare() {
+    setTraversesAlways(*this, !_frozen && !_followed.valid());
+}
 
 CameraCulling* CameraCulling::find(osg::Camera& camera) {
     return findCallback<CameraCulling>(camera.getCullCallback());

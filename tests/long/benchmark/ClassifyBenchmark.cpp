@@ -11,6 +11,7 @@
 #include "FamilyBenchmark.h"
 #include "OcclusionBenchmark.h"
 #include "TileMix.h"
+#include "TrafficBenchmark.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
@@ -248,8 +249,9 @@ int main(int argc, char** argv) {
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
     osgAnalyticBin::test::Suite suite;
     if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks() ||
-        !osgAnalyticBin::test::addOcclusionBenchmark()) {
-        std::fprintf(stderr, "osganalyticbin_benchmark: a method culls tiles that it must keep; nothing is timed\n");
+        !osgAnalyticBin::test::addOcclusionBenchmark() || !osgAnalyticBin::test::addTrafficBenchmark()) {
+        std::fprintf(stderr,
+                     "osganalyticbin_benchmark: a method culls what it must keep, or keeps all; nothing is timed\n");
         return EXIT_FAILURE;
     }
     benchmark::RunSpecifiedBenchmarks();

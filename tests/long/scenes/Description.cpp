@@ -100,6 +100,8 @@ const char* kindName(PartKind kind) {
             return "a sign that ignores depth in";
         case PartKind::Unculled:
             return "a model that stands elsewhere and is never culled in";
+        case PartKind::Traffic:
+            return "models that ask for terrain in";
         case PartKind::Camera:
             return "a camera in the scene";
         case PartKind::VisitorLeavesOut:

@@ -136,6 +136,7 @@ enum class PartKind {
     Vehicle,
     Sign,      // is drawn in front of all
     Unculled,  // stands elsewhere, and says so
+    Traffic,   // many small towers that ask whether terrain hides them
     // cameras, visitors
     Camera,
     VisitorLeavesOut,

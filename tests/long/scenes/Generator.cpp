@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint64_t kStream = 15;
 constexpr std::uint64_t kApplicationStream = 16;
+constexpr std::uint64_t kTrafficStream = 19;
 constexpr double kTwoPi = 6.28318530717958647692;
 
 /// Adds random parts to a description that has databases.
@@ -304,6 +305,24 @@ void chooseTheme(Random& random, Description& description) {
 
 }  // namespace
 
+namespace {
+
+void addTraffic(Random& random, Description& description, int frames) {
+    if (!random.chance(description.theme == Theme::Hills ? 0.7 : 0.15)) return;
+    static constexpr std::array<Hook, 3> kHooks{Hook::Globe, Hook::Root, Hook::Root};
+    const DatabaseSpec& database = description.databases.front();
+    Part part;
+    part.kind = PartKind::Traffic;
+    part.id = static_cast<int>(description.parts.size());
+    part.hook = random.pick(kHooks);
+    part.variant = random.integer(1, 1 << 20);
+    part.amount = random.logUniform(0.02, 1.0) * std::max(database.relief, 1e-4 * database.size());
+    if (random.chance(0.5)) part.frame = random.integer(1, frames);
+    description.parts.push_back(part);
+}
+
+}  // namespace
+
 Description randomDescription(std::uint64_t seed) {
     Random random(kStream, seed);
     Description description;
@@ -323,6 +342,9 @@ Description randomDescription(std::uint64_t seed) {
         description.views.push_back(isFlight ? nextView(random, description.views.back())
                                              : randomView(random, description, frame));
     }
+    // views do not depend on it
+    Random ofTraffic(kTrafficStream, seed);
+    addTraffic(ofTraffic, description, frames);
     return description;
 }
 

@@ -8,6 +8,7 @@
 #include "States.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
 #include <osg/Geode>
 #include <osg/MatrixTransform>
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <string>
+#include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 
@@ -74,6 +76,36 @@ void addModel(const Part& part, const Description& description, osg::Node& node)
     if (!group) return;
     const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
     group->addChild(makeModel(database, part, frameOf(part, description, node)));
+}
+
+// Towers on hills and in valleys, a few of which are drawn in front of all.
+void addTraffic(const Part& part, const Description& description, osg::Node& node) {
+    osg::Group* const group = node.asGroup();
+    if (!group) return;
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const osg::Matrixd frame = frameOf(part, description, node);
+    const osg::ref_ptr<osg::Group> traffic = new osg::Group;
+    traffic->setName("#model " + std::to_string(part.id));
+    Random random(static_cast<std::uint64_t>(part.variant), static_cast<std::uint64_t>(part.id));
+    constexpr int kModels = 24;
+    for (int i = 0; i < kModels; ++i) {
+        Part model = part;
+        model.kind = random.chance(0.1) ? PartKind::Sign : random.chance(0.2) ? PartKind::Vehicle : PartKind::Tower;
+        model.id = 1000 * (part.id + 1) + i;
+        model.variant = random.chance(0.1) ? random.integer(1, 3) : 0;
+        const Extents e = extentsOf(database, {part.tile.database, 0, random.integer(0, database.shownColumns - 1),
+                                               database.firstRow + random.integer(0, database.rows - 1)});
+        model.latitude = random.uniform(e.south, e.north);
+        model.longitude = random.uniform(e.west, e.east);
+        const double ground = surfaceHeight(database, model.latitude, model.longitude);
+        model.low = ground + database.relief * random.uniform(-0.05, 0.3);
+        model.high = model.low + part.amount * random.logUniform(0.1, 1.0);
+        model.amount = random.uniform(0.0, 1.0) * part.amount;
+        const osg::ref_ptr<osg::Node> made = makeModel(database, model, frame);
+        made->addCullCallback(new HiddenByTerrainCallback);
+        traffic->addChild(made);
+    }
+    group->addChild(traffic);
 }
 
 // In front of what is there, or behind it.
@@ -264,6 +296,8 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::Sign:
         case PartKind::Unculled:
             return addModel(part, description, *node);
+        case PartKind::Traffic:
+            return addTraffic(part, description, *node);
         case PartKind::Toggle:
             return toggle(*node);
         case PartKind::SetScale:

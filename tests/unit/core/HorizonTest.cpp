@@ -61,6 +61,58 @@ TEST(Horizon, SeesEveryPointWhoseLineOfSightJustMisses) {
     expectLinesOfSightThatJustMissToBeSeen(random, hidesBin);
 }
 
+// The share of the way from the eye to a point at which a line of sight enters the occluder.
+double trueShare(const Ellipsoid& ellipsoid, const HorizonEye& eye, const glm::dvec3& from, const glm::dvec3& to) {
+    const double a = ellipsoid.equatorialRadius(), b = ellipsoid.polarRadius(), scale = eye.data().scale;
+    const glm::dvec3 radii(a * scale, a * scale, b * scale);
+    const glm::dvec3 start = from / radii, way = to / radii - start;
+    const double across = glm::dot(start, way) / glm::dot(way, way);
+    return -across - std::sqrt(across * across - (glm::dot(start, start) - 1.0) / glm::dot(way, way));
+}
+
+TEST(Horizon, SharesOfBallsAreUpperBounds) {
+    Random random(310);
+    int hidden = 0, tight = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const double depth = randomDepth(random);
+        const glm::dvec3 eye = randomEye(random, ellipsoid, depth);
+        const auto prepared = HorizonEye::fromEye(ellipsoid, depth, eye);
+        if (!prepared) continue;
+        const glm::dvec3 centre = rounded(geodeticToEcef(ellipsoid, randomPosition(random, randomBin(random))));
+        const double radius = random.logUniform(1.0, 1e5);
+        const double share = prepared->shareBefore(ellipsoid, centre, radius);
+        if (!(share < 1.0)) continue;
+        ++hidden;
+        double largest = 0.0;
+        for (int i = 0; i < 20; ++i) {
+            const glm::dvec3 point = centre + radius * random.direction();
+            ASSERT_FALSE(segmentMissesOccluder(ellipsoid, depth, real(point), real(eye))) << "trial " << trial;
+            largest = std::max(largest, trueShare(ellipsoid, *prepared, eye, point));
+        }
+        ASSERT_LE(largest, share * (1.0 + 1e-9)) << "trial " << trial;
+        tight += largest > 0.2 * share;
+    }
+    EXPECT_GT(hidden, 10000);
+    EXPECT_GT(2 * tight, hidden);
+}
+
+TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
+    Random random(311);
+    int seen = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        if (!segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) continue;
+        const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
+        if (!prepared) continue;
+        ++seen;
+        const double radius = random.logUniform(1e-3, 1e5);
+        const glm::dvec3 centre = rounded(line.target) + random.uniform(0.0, radius) * random.direction();
+        ASSERT_FALSE(prepared->shareBefore(line.ellipsoid, centre, radius + 1e-6) < 1.0) << "trial " << trial;
+    }
+    EXPECT_GT(seen, 50000);
+}
+
 TEST(Horizon, SeesEveryPointThatAParallelRayReaches) {
     Random random(302);
     expectParallelRaysThatJustMissToBeSeen(random, hidesBin);

@@ -63,6 +63,21 @@ TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
     EXPECT_TRUE(planes.hidesFarTile());
 }
 
+// A camera's own callback may draw anything, unless it is declared.
+TEST(ComputedNear, IsNotKnownBelowACameraWithACallback) {
+    struct OwnCull : public osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
+    };
+    ComputedPlanes planes;
+    const osg::ref_ptr<OwnCull> callback = new OwnCull;
+    planes.view.camera->setCullCallback(callback);
+    EXPECT_FALSE(planes.hidesFarTile());
+    setTraversesAlways(*callback);
+    EXPECT_TRUE(planes.hidesFarTile());
+    setTraversesAlways(*callback, false);
+    EXPECT_FALSE(planes.hidesFarTile());
+}
+
 TEST(ComputedNear, IsAsFarAsWhatIsBesideTheDatabase) {
     for (const bool isBefore : {false, true}) {
         ComputedPlanes planes;

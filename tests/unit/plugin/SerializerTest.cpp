@@ -7,6 +7,7 @@
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,16 @@ TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     EXPECT_EQ(read->getCullOptions().expiry, options.expiry);
     EXPECT_EQ(read->getRadiiText(), written->getRadiiText());
     EXPECT_EQ(read->getLocalToEcef(), frame);
+}
+
+TEST_P(Serializer, TheCallbackOfModelsReadsBackWithWhatIsNestedInIt) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->addCullCallback(new HiddenByTerrainCallback);
+    node->addCullCallback(new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel()));
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    ASSERT_NE(dynamic_cast<HiddenByTerrainCallback*>(back->getCullCallback()), nullptr);
+    EXPECT_NE(dynamic_cast<AnalyticBinCullCallback*>(back->getCullCallback()->getNestedCallback()), nullptr);
 }
 
 TEST_P(Serializer, AllThatATileWasFittedToReadsBackExactly) {

@@ -6,6 +6,8 @@
 
 #include "ViewerScene.h"
 
+#include <osgAnalyticBin/Declarations.h>
+
 #include <gtest/gtest.h>
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -77,6 +79,22 @@ TEST_F(FrozenCamera, ComputesNearAndFarForTheFlyingView) {
     EXPECT_GT(_scene.nearPlane, 5e6);
     EXPECT_LT(_scene.farPlane, 2.5e7);
     EXPECT_LT(_scene.nearPlane, _scene.farPlane);
+}
+
+// By its own view a camera is culled as without the callback: what is hidden where near and far planes are computed
+// does not depend on it.
+TEST(CameraCulling, IsDeclaredWhileTheCameraIsCulledByItsOwnView) {
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera, other = new osg::Camera;
+    CameraCulling& culling = CameraCulling::of(*camera);
+    EXPECT_TRUE(traversesAlways(culling));
+    culling.freeze(CameraCulling::cullingView(*other));
+    EXPECT_FALSE(traversesAlways(culling));
+    culling.thaw();
+    EXPECT_TRUE(traversesAlways(culling));
+    culling.follow(other);
+    EXPECT_FALSE(traversesAlways(culling));
+    culling.follow(nullptr);
+    EXPECT_TRUE(traversesAlways(culling));
 }
 
 TEST(FollowingCamera, IsCulledAsTheOtherAndDrawsItsOverlay) {

@@ -54,9 +54,15 @@ public:
     [[nodiscard]] static CullingView cullingView(osg::Camera& camera);
 
     /// Culls by this view from now on.
-    void freeze(const CullingView& view) { _frozen = view; }
+    void freeze(const CullingView& view) {
+        _frozen = view;
+        declare();
+    }
     /// Culls by the camera's own view again, or that of the followed one.
-    void thaw() { _frozen.reset(); }
+    void thaw() {
+        _frozen.reset();
+        declare();
+    }
     /// Whether freeze() holds.
     [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
 
@@ -65,6 +71,7 @@ public:
     void follow(osg::Camera* camera) {
         _followed = camera;
         _followedView.reset();
+        declare();
     }
     /// Copies the culling view of the followed camera for the next cull traversals. Call it between frames, because
     /// cull threads write to their cameras' projections. If it is never called, each traversal reads the followed
@@ -88,6 +95,7 @@ protected:
     ~CameraCulling() override;
 
 private:
+    void declare();
     [[nodiscard]] std::optional<CullingView> foreignView() const;
     void drawOverlay(osgUtil::CullVisitor& visitor) const;
 

@@ -164,4 +164,19 @@ bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
     return !kernels::scalar::showsAnEnd<double>(rows, _data) && kernels::scalar::isBehindHorizon<double>(rows, _data);
 }
 
+// In unit space with the occluder as unit sphere, the eye is at u / c.
+double HorizonEye::shareBefore(const Ellipsoid& ellipsoid, const glm::dvec3& centre, double radius) const noexcept {
+    const glm::dvec3 direction(_data.x, _data.y, _data.z), at = toUnitSpace(ellipsoid, centre) / _data.scale;
+    const double along = glm::dot(at, direction);
+    const double rounding = 64.0 * kEpsilon * (1.0 + std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
+    const double room = radius / (smallerRadius(ellipsoid) * _data.scale) + rounding;
+    // Behind the plane of the horizon, and within the cone that touches the occluder there. Written so that NaN is in
+    // sight.
+    if (!(along + room <= _data.cosDip)) return HUGE_VAL;
+    const double across = glm::length(at - along * direction);
+    if (!(1.0 - _data.cosDip * along - _data.sinDip * across >= room)) return HUGE_VAL;
+    const double nearest = glm::length(at - direction / _data.cosDip) * kDown - room;
+    return _data.sinDip / _data.cosDip * kUp / nearest;
+}
+
 }  // namespace osgAnalyticBin::core

@@ -127,19 +127,54 @@ bool HorizonBuffer::isBeside(const BinBall& ball) const noexcept {
            isBeyond(_picture.right, 1.0);
 }
 
-bool HorizonBuffer::hides(const Outline& body) {
-    // Earth up to here is nearer than the body by a step of the depth buffer. That is hardest for the eye that is
-    // farthest back.
+// A half-space r <= X f through the eye holds a ball if its centre is inside by radius * sqrt(1 + X²) and the motion of
+// the eye. With X = x + q, sqrt(1 + X²) <= sqrt(1 + x²) + q: doc/theory/occlusion.md, section 8.
+HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinBall& ball) const noexcept {
+    const double length = glm::length(ball.centre);
+    const double radius = ball.radius + 32.0 * kEpsilon * (_picture.eyeToCentre + length + ball.radius);
+    Outline outline{-kInfinity, {-kInfinity, kInfinity}, {-kInfinity, kInfinity}, length, false};
+    // written so that NaN and infinite numbers tell nothing
+    if (!(radius >= 0.0 && length <= kernels::kLargest && radius <= kernels::kLargest)) return outline;
+    outline.nearest = ball.centre.y - radius;
+    if (!(outline.nearest > _picture.eyes[1])) {
+        outline.isBeside = isBeside(ball);
+        return outline;
+    }
+    const double inverse = 1.0 / (ball.centre.y - radius - _picture.eyes[1]);
+    const auto around = [&](double across, double eyes) {
+        const double at = across / ball.centre.y, size = std::abs(at);
+        const double metres = radius * std::sqrt(1.0 + at * at) + eyes + size * _picture.eyes[1];
+        const double room = metres * inverse + 16.0 * kEpsilon * (1.0 + size) + _picture.drawing;
+        return Interval{at - room, at + room};
+    };
+    outline.across = around(ball.centre.x, _picture.eyes[0]);
+    outline.heights = around(ball.centre.z, _picture.eyes[2]);
+    outline.isBeside = outline.across.upper < _picture.left || outline.across.lower > _picture.right;
+    return outline;
+}
+
+// Earth up to here is nearer than the body by a step of the depth buffer. That is hardest for the eye that is farthest
+// back.
+double HorizonBuffer::farthestBefore(const Outline& body) const noexcept {
     const double ahead = _picture.eyes[1], fromBack = body.nearest + ahead;
-    const double farthest = fromBack / (1.0 + _depthStep * fromBack) - ahead;
-    // written so that NaN is not hidden
-    if (!(body.nearest > ahead && farthest >= _reached)) return false;
-    use(farthest);
-    if (body.isBeside || !(body.heights.lower >= _lowest)) return false;
+    return fromBack / (1.0 + _depthStep * fromBack) - ahead;
+}
+
+// The strips that a body reaches into.
+HorizonBuffer::Strips HorizonBuffer::stripsOf(const Outline& body) const noexcept {
     // the rounding of the quotient; that of the strips' edges is in the errors of the corners
     constexpr double kRoom = 1e-6;
-    const std::size_t first = stripAt(body.across.lower, -kRoom), last = stripAt(body.across.upper, 1.0 + kRoom);
-    return kernels::activeOcclusion.covers(_lower.data(), _upper.data(), first, last, body.heights.lower,
+    return {stripAt(body.across.lower, -kRoom), stripAt(body.across.upper, 1.0 + kRoom)};
+}
+
+bool HorizonBuffer::hides(const Outline& body) {
+    const double farthest = farthestBefore(body);
+    // written so that NaN is not hidden
+    if (!(body.nearest > _picture.eyes[1] && farthest >= _reached)) return false;
+    use(farthest);
+    if (body.isBeside || !isAboveLowest(body)) return false;
+    const Strips strips = stripsOf(body);
+    return kernels::activeOcclusion.covers(_lower.data(), _upper.data(), strips.first, strips.last, body.heights.lower,
                                            body.heights.upper);
 }
 

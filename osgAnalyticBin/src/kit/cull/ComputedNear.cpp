@@ -5,6 +5,7 @@
 
 #include "../Classes.h"
 #include "../Inverse.h"
+#include "../Scoped.h"
 #include "CullCallbacks.h"
 #include "DrawnDepth.h"
 #include "DrawnState.h"
@@ -72,7 +73,11 @@ public:
         // these have planes of their own
         const bool hasOwnPlanes = isOneOf<osg::Camera, osg::Projection>(node);
         const bool isDrawable = isOneOf<osg::Geometry, osg::ShapeDrawable>(node);
-        if (callbacks.mayLeaveOut || --_nodesLeft < 0 || !(hasOwnPlanes || isDrawable || isPlainGroup(node))) {
+        // models that terrain may hide come in thousands
+        const bool isCounted = !callbacks.mayLeaveOut && _isCounting;
+        const Scoped counting(_isCounting, isCounted);
+        if (callbacks.isUnknown || (isCounted && --_nodesLeft < 0) ||
+            !(hasOwnPlanes || isDrawable || isPlainGroup(node))) {
             _unknown = &node;
             return false;
         }
@@ -96,6 +101,7 @@ private:
     const TileSelection* const _selection;
     const FamilyTile* _known = nullptr;
     int _nodesLeft = 1024;
+    bool _isCounting = true;
     double _farthest = kNowhere;
     const osg::Node* _unknown = nullptr;
 };
@@ -111,7 +117,7 @@ osg::NodePath pathBelowProjection(osgUtil::CullVisitor& visitor) {
     if (last != path.rend()) return {last.base() - 1, path.end()};
     // osgUtil::SceneView traverses the children of its camera
     osg::Camera* const camera = visitor.getRenderStage() ? visitor.getCurrentCamera() : nullptr;
-    if (!camera || path.empty() || !camera->containsNode(path.front()) || camera->getCullCallback()) return {};
+    if (!camera || path.empty() || !camera->containsNode(path.front()) || CullCallbacks(*camera).mayLeaveOut) return {};
     osg::NodePath whole{camera};
     whole.insert(whole.end(), path.begin(), path.end());
     return whole;

@@ -10,11 +10,17 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Declarations.h>
+#include <osgAnalyticBin/Export.h>
 
 #include <osg/Callback>
+#include <osg/ClusterCullingCallback>
 #include <osg/Node>
 
 namespace osgAnalyticBin {
+
+/// Whether a callback leaves its node out while terrain hides it, and does nothing else. Defined with
+/// HiddenByTerrainCallback, which is the only one.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool asksForTerrain(const osg::Callback& callback);
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
@@ -29,8 +35,10 @@ struct CullCallbacks {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+            } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
+            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+                mayLeaveOut = isUnknown = true;
             }
         }
     }
@@ -38,12 +46,17 @@ struct CullCallbacks {
     const AnalyticBinCullCallback* bin = nullptr;
     const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
+    bool isUnknown = false;  ///< one that may leave out may also draw otherwise
 };
 
 /// Of a node without what is below it: its state, its class, its callbacks.
 [[nodiscard]] inline DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
-    const bool mayBeLeftOut = node.getCullCallback() && CullCallbacks(node).mayLeaveOut;
-    DrawnState drawn = mayBeLeftOut ? DrawnState{false, false} : drawnStateByClass(node, rules);
+    DrawnState drawn = drawnStateByClass(node, rules);
+    if (node.getCullCallback()) {
+        const CullCallbacks callbacks(node);
+        if (callbacks.isUnknown) drawn = {false, false, false};
+        drawn.hides = drawn.hides && !callbacks.mayLeaveOut;
+    }
     drawn.isCulled = node.getCullingActive();
     return drawn;
 }

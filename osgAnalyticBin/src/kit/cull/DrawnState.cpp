@@ -71,7 +71,7 @@ namespace {
 using Attribute = osg::StateAttribute;
 
 constexpr GLenum kSeamlessCubeMaps = 0x884F;  // GL_TEXTURE_CUBE_MAP_SEAMLESS
-constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
+constexpr DrawnState kHarmless{true, true, true}, kUnknown{false, false, false}, kHidesNothing{false, true, true};
 
 DrawnState ofDepth(const osg::Depth& depth) {
     const bool isNearest = depth.getFunction() == osg::Depth::LESS || depth.getFunction() == osg::Depth::LEQUAL;
@@ -82,7 +82,7 @@ DrawnState ofDepth(const osg::Depth& depth) {
 DrawnState ofPolygonMode(const osg::PolygonMode& mode) {
     const bool isFilled = mode.getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
                           mode.getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL;
-    return isFilled ? kHarmless : kHidesNothing;
+    return isFilled ? kHarmless : DrawnState{false, true, false};
 }
 
 DrawnState ofColorMask(const osg::ColorMask& mask) {
@@ -233,6 +233,7 @@ DrawnState ofDrawable(const osg::Drawable& drawable) {
 }
 
 DrawnState ofClass(const osg::Node& node) {
+    if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node)) return kHarmless;
     if (const osg::Drawable* const drawable = node.asDrawable()) return ofDrawable(*drawable);
     if (isOneOf<osgTerrain::TerrainTile>(node))
         return isBlended(static_cast<const osgTerrain::TerrainTile&>(node)) ? kHidesNothing : kHarmless;

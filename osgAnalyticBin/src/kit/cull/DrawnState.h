@@ -24,6 +24,8 @@ struct DrawnState {
     bool hides = true;
     /// Nothing is drawn where something nearer is.
     bool obeysDepth = true;
+    /// Nothing is drawn beside the triangles of the vertices, as wide lines and points are.
+    bool isFilled = true;
     /// OSG may cull it: osg::Node::setCullingActive() has not switched that off, as it is for light sources and
     /// absolute transforms.
     bool isCulled = true;
@@ -31,6 +33,7 @@ struct DrawnState {
     DrawnState& operator&=(const DrawnState& other) {
         hides = hides && other.hides;
         obeysDepth = obeysDepth && other.obeysDepth;
+        isFilled = isFilled && other.isFilled;
         isCulled = isCulled && other.isCulled;
         return *this;
     }

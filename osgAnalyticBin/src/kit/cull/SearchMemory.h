@@ -6,6 +6,7 @@
 #include "../tile/TerrainHider.h"
 #include "CullTraversal.h"
 #include "GroundBelow.h"
+#include "HidingView.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Referenced>
@@ -46,6 +47,7 @@ public:
     }
 
     GroundBelow ground;  ///< last found below the eye
+    HidingView hiding;   ///< for nodes that are no tiles
 
 protected:
     ~SearchMemory() override = default;

@@ -6,6 +6,8 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../GlmBridge.h"
+#include "../Inverse.h"
+#include "../Spheres.h"
 #include "../cull/BinCulling.h"
 #include "../cull/ComputedNear.h"
 #include "../cull/CullCallbacks.h"
@@ -17,11 +19,15 @@
 #include "../cull/ShownDepth.h"
 #include "../cull/Viewpoint.h"
 
+#include <osgAnalyticBin/core/occlusion/BinBody.h>
+
+#include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <mutex>
@@ -64,6 +70,8 @@ struct Horizon {
     std::optional<core::HorizonEye> eye;
     std::optional<core::CoveredRegion> region;  // that the eye is over
     bool isSelected = false;                    // what is drawn is selected already
+    std::optional<double> nearReach;            // of an eye, see Viewpoint
+    osg::ref_ptr<TerrainHider> hider;           // null: terrain hides nothing
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
@@ -115,11 +123,11 @@ void reportUnknownNearPlane(Database& database, const osg::Node* unknown) {
     database.report(Finding::UnknownNearPlane, reason);
 }
 
-// Marks what terrain hides in the selection.
-void selectBehindTerrain(const ShownDatabase& shown, Database& database, const Viewpoint& viewpoint,
-                         SearchMemory::LastView& last) {
+// Marks what terrain hides in the selection. Returns: the hider if it knows what is covered.
+osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Database& database,
+                                               const Viewpoint& viewpoint, SearchMemory::LastView& last) {
     if (!last.hider) last.hider = makeTerrainHider();
-    if (!last.hider) return;
+    if (!last.hider) return nullptr;
     const auto& [visitor, cullStack, view] = shown.selected;
     TileSelection& selection = *view.selection;
     std::optional<ComputedNear> computed;
@@ -127,8 +135,12 @@ void selectBehindTerrain(const ShownDatabase& shown, Database& database, const V
         const osg::Node* unknown = nullptr;
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
         if (unknown) reportUnknownNearPlane(database, unknown);
-        if (!computed || !(computed->least() > 0.0)) return noteHidden({}, last);
+        if (!computed || !(computed->least() > 0.0)) {
+            noteHidden({}, last);
+            return nullptr;
+        }
     }
+    SearchMemory::of(visitor).hiding.clear();
     const TerrainHider::Hidden hidden =
         last.hider->find({cullStack, view.ellipsoid, view.planes, view.shape, shown.region, *viewpoint.eye(),
                           viewpoint.nearReach(), computed ? &*computed : nullptr},
@@ -140,6 +152,63 @@ void selectBehindTerrain(const ShownDatabase& shown, Database& database, const V
     for (const std::size_t i : hidden.tiles) selection.addOccluded(selection.shown()[i]);
     if (hidden.covered) BinStatistics::of(visitor).setCovered(hidden.covered, visitor.getTraversalNumber());
     noteHidden(hidden, last);
+    return hidden.covered ? last.hider : nullptr;
+}
+
+// How far from the eye the near plane cuts what is drawn at most, in metres; infinite where that is not known.
+double reachOfComputedNear(const SelectedView& selected) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    osgUtil::CullVisitor& visitor = *selected.visitor.asCullVisitor();
+    const osg::Node* unknown = nullptr;
+    osg::Matrixd unproject;
+    const auto eyeToEcef = affineInverse(*visitor.getModelViewMatrix());
+    if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef || !unproject.invert(*visitor.getProjectionMatrix()))
+        return kUnknown;
+    const auto near = ComputedNear::of(visitor, *selected.view.selection, unknown);
+    if (!near) return kUnknown;
+    double toCorner = 0.0;
+    for (unsigned int i = 0; i < 4; ++i) {
+        const osg::Vec3d corner = osg::Vec3d(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, 0.5) * unproject;
+        toCorner = std::max(toCorner, corner.length() / std::abs(corner.z()));
+    }
+    return near->most({}) * toCorner * stretchOf(*eyeToEcef);
+}
+
+// Whether a near plane that reaches so far may cut terrain that is shown.
+bool mayCutTerrain(const DatabaseView& view, const glm::dvec3& eye, double reach) {
+    if (!std::isfinite(reach)) return true;
+    const double lowest = view.ellipsoid.toGeodetic(eye).altitude - reach;
+    const core::InverseFrame frame(core::Frame{eye});
+    const auto mayBeCut = [&](const ShownTile& shown) {
+        const AnalyticBinCullCallback& tile = *shown.tile;
+        const core::GeodeticBin& bin = tile.getBin().bin();
+        const double margin = tile.getBin().margin();
+        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == view.shape;
+        if (!isFitted || bin.empty() || !std::isfinite(tile.getBinLow())) return true;
+        if (tile.getBinHigh() + margin < lowest) return false;
+        const core::GeodeticBin drawn = bin.withAltitude({tile.getBinLow(), tile.getBinHigh()});
+        const core::BinBall ball = core::BinBody(view.ellipsoid, drawn, margin, frame).ball();
+        return !(glm::length(ball.centre) > ball.radius + margin + reach);
+    };
+    const std::vector<ShownTile>& shown = view.selection->shown();
+    return std::any_of(shown.begin(), shown.end(), mayBeCut);
+}
+
+// Tells nodes that are no tiles what the database hides.
+void tellOthers(const SelectedView& selected, const Horizon& horizon) {
+    osgUtil::CullVisitor* const visitor = selected.visitor.asCullVisitor();
+    const auto eye = affineInverse(*selected.cullStack.getModelViewMatrix());
+    if (!visitor || !eye || !horizon.nearReach) return;
+    HidingView& hiding = SearchMemory::of(*visitor).hiding;
+    const auto isCutOpen = [&] {
+        const bool isFinal = isFinalProjection(selected.cullStack);
+        const double reach = isFinal ? *horizon.nearReach : reachOfComputedNear(selected);
+        return mayCutTerrain(selected.view, toGlm(eye->getTrans()), reach);
+    };
+    // takes longer than to say that nothing is hidden
+    const bool isAsked = !horizon.hider && horizon.eye && hiding.isInUse(*visitor);
+    hiding.set(*visitor, {selected.view.ellipsoid, horizon.eye, horizon.region, selected.view.planes, horizon.hider,
+                          !horizon.hider && (!isAsked || isCutOpen())});
 }
 
 Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& options) {
@@ -155,14 +224,19 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     SearchMemory::LastView& last = SearchMemory::of(visitor).lastView(database);
     if (isHoleTakenForGranted(options.occlusion, last)) return {};
     shown.expectsHole = last.holes > 0;
+    // what is hidden among other nodes may be worth a search, too
+    HidingView& hiding = SearchMemory::of(visitor).hiding;
+    if (hiding.isInUse(visitor)) last.resting = std::min(last.resting, kShortestRest);
+    if (hiding.takeWorth()) last.rest = last.resting = 0;
     const auto note = [&](Horizon found) {
         last.holes = found.isSelected ? 0 : last.holes + 1;
+        if (viewpoint->eye()) found.nearReach = viewpoint->nearReach();
         return found;
     };
     if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
         shown.region = nullptr;
         const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
-        return note({eye, {}, eye.has_value()});
+        return note({eye, {}, eye.has_value(), {}, {}});
     }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.report(Finding::EyeBesideRegion);
@@ -180,11 +254,12 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const auto eye = isMap ? std::nullopt : eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
-    if (isSelected && findsOccluded) selectBehindTerrain(shown, database, *viewpoint, last);
+    osg::ref_ptr<TerrainHider> hider;
+    if (isSelected && findsOccluded) hider = selectBehindTerrain(shown, database, *viewpoint, last);
     // a hole leaves nothing to pay for
     if (!isSelected && findsOccluded) noteHidden({}, last);
     // a map in which occlusion rests was not searched
-    return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected});
+    return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected, {}, hider});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -257,6 +332,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(shown, *_database, options);
     // callbacks of the application's run before what is drawn is selected then
     if (!horizon.isSelected) view.selection->clear();
+    if (horizon.isSelected) tellOthers(shown.selected, horizon);
     std::optional<SightOverRegion> sight;
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);

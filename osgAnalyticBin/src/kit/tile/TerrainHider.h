@@ -77,6 +77,12 @@ public:
     /// Guarantee: every line of sight to a tile that is hidden meets the mesh of another shown tile before.
     [[nodiscard]] virtual Hidden find(const View& view, const std::vector<ShownTile>& shown) = 0;
 
+    /// Whether terrain hides a ball in the view that find() was last called for. Metres and the frame of `eye`.
+    /// `isBehindHorizon`: whether the horizon hides it, if the near plane cuts no terrain in front of it.
+    /// Requires: find() returned what is covered.
+    /// Guarantee: every line of sight to the ball meets the mesh of a shown tile before, which is drawn.
+    [[nodiscard]] virtual bool hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) = 0;
+
 protected:
     ~TerrainHider() override = default;
 };

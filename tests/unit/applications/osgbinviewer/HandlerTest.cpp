@@ -13,7 +13,9 @@
 #include "MethodSwitchHandler.h"
 #include "PathRecorder.h"
 #include "SpyViewHandler.h"
+#include "TrafficHandler.h"
 
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
@@ -101,6 +103,61 @@ TEST_F(Handlers, SwitchToWhatAFreshViewerShowsWithTheMethod) {
         showOverlay(true);
     }
     EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
+}
+
+TEST_F(Handlers, ScatterModelsThatTerrainMayHide) {
+    constexpr unsigned int kModels = 40;
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(_viewer.getSceneData());
+    _viewer.setSceneData(scene);
+    _viewer.addEventHandler(new TrafficHandler(*scene, kModels));
+    look(_viewer, 1.0);
+    drawUntilIdle(_viewer);
+    _viewer.frame();
+    const osg::Group& models = *scene->getChild(1)->asGroup();
+    ASSERT_EQ(models.getNumChildren(), kModels);
+    const auto asks = [&] {
+        const osg::Callback* const callback = models.getChild(0)->getCullCallback();
+        return dynamic_cast<const HiddenByTerrainCallback*>(callback) != nullptr;
+    };
+    EXPECT_TRUE(asks());
+    press('G');
+    EXPECT_FALSE(asks());
+    press('G');
+    EXPECT_TRUE(asks());
+    // anew about another place
+    const osg::Vec3d before = models.getBound().center();
+    look(_viewer, -1.0);
+    _viewer.getCamera()->setViewMatrix(osg::Matrixd::translate(0.0, 1e5, 0.0) * _viewer.getCamera()->getViewMatrix());
+    press('T');
+    _viewer.frame();
+    ASSERT_EQ(models.getNumChildren(), kModels);
+    EXPECT_GT((models.getBound().center() - before).length(), 5e4);
+}
+
+// Of the models on a globe, a view from above draws those in view alone.
+TEST_F(Handlers, CountTheModelsThatAreDrawn) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    const osg::ref_ptr<osg::Node> database = _viewer.getSceneData();
+    scene->addChild(database);
+    Traffic traffic(40);
+    scene->addChild(&traffic.models());
+    _viewer.setSceneData(scene);
+    _viewer.getCamera()->setSmallFeatureCullingPixelSize(0.0f);
+    look(_viewer, 1.0);
+    drawUntilIdle(_viewer);
+    const osg::Vec3d eye = osg::Vec3d() * _viewer.getCamera()->getInverseViewMatrix();
+    traffic.scatter(*database, eye, 3e6);
+    (void)traffic.takeDrawn();
+    _viewer.frame();
+    const unsigned int asking = traffic.takeDrawn();
+    traffic.setAsking(false);
+    _viewer.frame();
+    const unsigned int all = traffic.takeDrawn();
+    EXPECT_GT(asking, 0u);
+    EXPECT_LE(asking, all);
+    EXPECT_LT(all, 40u);
+    EXPECT_EQ(traffic.takeDrawn(), 0u);
 }
 
 TEST_F(Handlers, FreezeWhatIsDrawn) {

@@ -68,6 +68,13 @@ public:
     /// Cost: about 35 multiplications and two or three square roots; no trigonometry.
     [[nodiscard]] bool hides(const HorizonBin& bin) const noexcept;
 
+    /// For balls, in ECEF and metres: how far the occluder is along a line of sight to a point of the ball, as a share
+    /// of the way to the point. Requires: an eye, and not a viewing direction; its own ellipsoid.
+    /// Guarantee: no line of sight has a larger share, and each meets the occluder; infinite where one may not;
+    /// test: Horizon.SharesOfBallsAreUpperBounds. Source: doc/theory/horizon.md, section 12.
+    [[nodiscard]] double shareBefore(const Ellipsoid& ellipsoid, const glm::dvec3& centre,
+                                     double radius) const noexcept;
+
     /// What the test reads.
     [[nodiscard]] const HorizonEyeData& data() const noexcept { return _data; }
 

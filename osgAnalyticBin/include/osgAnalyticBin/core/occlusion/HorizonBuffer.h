@@ -55,6 +55,8 @@ public:
     };
     /// Guarantee: no point of the body is outside of its outline, rounding included; tests: HorizonBuffer.*.
     [[nodiscard]] Outline outlineOf(const BinHull& body) const noexcept;
+    /// The same of a ball, by its own roundness.
+    [[nodiscard]] Outline outlineOf(const BinBall& ball) const noexcept;
 
     /// Whether all of a ball is left or right of the picture, or behind all eyes.
     /// Guarantee: what is in such a ball has an outline that is beside the picture; test:
@@ -69,6 +71,9 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
+    /// Whether no line of sight to a body may meet terrain in front of the near plane: see setLowest().
+    [[nodiscard]] bool isAboveLowest(const Outline& body) const noexcept { return body.heights.lower >= _lowest; }
+
     /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is
     /// none.
     [[nodiscard]] double nearestEarth() const noexcept { return std::sqrt(_nearestEarth2); }
@@ -77,6 +82,8 @@ public:
     [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
 
 private:
+    friend class HorizonProfile;
+
     // The picture of an upright quadrilateral of earth: kernels::WallRow says what the numbers are.
     using Wall = std::array<double, 8>;
     // Walls that are not in the strips yet wait in lists, one for each range of distances.
@@ -92,6 +99,8 @@ private:
     };
 
     [[nodiscard]] static std::size_t rangeOf(double distance) noexcept;
+    [[nodiscard]] double farthestBefore(const Outline& body) const noexcept;
+    [[nodiscard]] Strips stripsOf(const Outline& body) const noexcept;
     void use(double distance);
     void useList(std::size_t range, double distance);
     [[nodiscard]] std::size_t stripAt(double x, double toRight) const noexcept;

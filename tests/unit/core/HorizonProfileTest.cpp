@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Balls behind terrain, in any order. Oracle: rays through all triangles, in long double. The buffer itself:
+// HorizonBufferTest.cpp.
+
+#include "OcclusionScene.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonProfile.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::BinBall;
+using core::HorizonBuffer;
+using core::HorizonProfile;
+
+constexpr int kRays = 24;
+constexpr int kBallsInScene = 60;
+
+HorizonProfile profileOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0)) {
+    HorizonBuffer buffer = bufferOf(scene, eyes);
+    for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+    return HorizonProfile(std::move(buffer));
+}
+
+// A ball somewhere about the terrain, often near its surface, in ECEF.
+BinBall randomBall(Random& random, const OcclusionScene& scene) {
+    const auto& tile = scene.tiles[static_cast<std::size_t>(random.integer(0, int(scene.tiles.size()) - 1))];
+    const glm::dvec3 place = rounded(random.chance(0.5) ? scene.pointIn(random, tile) : scene.topOf(random, tile));
+    const double size = tile.bin.altitude().width() * random.logUniform(1e-4, 1.0);
+    return {place + size * random.direction(), size * random.logUniform(0.01, 2.0)};
+}
+
+BinBall inFrame(const BinBall& ball, const core::Frame& frame) {
+    const glm::dvec3 from = ball.centre - frame.origin;
+    return {{glm::dot(from, frame.x), glm::dot(from, frame.y), glm::dot(from, frame.z)}, ball.radius};
+}
+
+// Whether no ray reaches the ball.
+bool isUnseen(Random& random, const OcclusionScene& scene, const BinBall& ball) {
+    for (int ray = 0; ray < kRays; ++ray) {
+        const RealVector point = real(ball.centre + ball.radius * random.direction());
+        if (isBeforeTheCamera(scene, point) && !scene.isBlocked(point)) return false;
+    }
+    return true;
+}
+
+TEST(HorizonProfile, HidesNoBallThatARayReaches) {
+    Random random(1730);
+    int hidden = 0, unseen = 0;
+    for (int i = 0; i < 60; ++i) {
+        const OcclusionScene scene(random, true, i % 4 == 0);
+        const HorizonProfile profile = profileOf(scene);
+        for (int k = 0; k < kBallsInScene; ++k) {
+            const BinBall ball = randomBall(random, scene);
+            const HorizonBuffer::Outline outline = profile.outlineOf(inFrame(ball, frameOf(scene)));
+            const bool isOutOfSight = isUnseen(random, scene, ball);
+            if (profile.hides(outline)) {
+                ++hidden;
+                ASSERT_TRUE(isOutOfSight) << "scene " << i << ", ball " << k;
+            }
+            unseen += isOutOfSight && !outline.isBeside;
+        }
+    }
+    std::printf("%d balls that no ray reaches, %d hidden\n", unseen, hidden);
+    EXPECT_GT(2 * hidden, unseen);
+}
+
+TEST(HorizonProfile, HidesNoBallThatARayReachesFromAnyOfTheEyes) {
+    Random random(1731);
+    int hidden = 0;
+    for (int i = 0; i < 60; ++i) {
+        const OcclusionScene scene(random);
+        const glm::dvec3 eyes = randomEyes(random, scene);
+        const HorizonProfile profile = profileOf(scene, eyes);
+        OcclusionScene moved = scene;
+        for (int k = 0; k < kBallsInScene; ++k) {
+            const BinBall ball = randomBall(random, scene);
+            if (!profile.hides(profile.outlineOf(inFrame(ball, frameOf(scene))))) continue;
+            ++hidden;
+            for (int eye = 0; eye < 3; ++eye) {
+                if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
+                ASSERT_TRUE(isUnseen(random, moved, ball)) << "scene " << i << ", ball " << k;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 60);
+}
+
+// The buffer, asked front to back, knows as much.
+TEST(HorizonProfile, HidesWhatTheBufferHides) {
+    Random random(1732);
+    int hidden = 0;
+    for (int i = 0; i < 30; ++i) {
+        const OcclusionScene scene(random, false);
+        HorizonBuffer buffer = bufferOf(scene);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+        const HorizonProfile profile(buffer);
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            const bool isHidden = buffer.hides(outline);
+            hidden += isHidden;
+            EXPECT_EQ(profile.hides(outline), isHidden);
+        }
+    }
+    EXPECT_GT(hidden, 30);
+}
+
+// Points of the ball are in its outline, for all eyes, and the outline is no wider than that of a cube.
+TEST(HorizonProfile, OutlinesOfBallsAreTightAndHoldThem) {
+    Random random(1733);
+    for (int i = 0; i < 2000; ++i) {
+        const double size = random.chance(0.5) ? 0.0 : 5.0;
+        const glm::dvec3 eyes(random.uniform(0.0, size), random.uniform(0.0, size), random.uniform(0.0, size));
+        const HorizonBuffer buffer(6.4e6, {-1.0, 1.0}, 0.0, 0.0, eyes);
+        const double ahead = random.logUniform(60.0, 1e5), radius = ahead * random.logUniform(1e-4, 0.9);
+        const BinBall ball{{ahead * random.uniform(-1.2, 1.2), ahead, ahead * random.uniform(-1.2, 1.2)}, radius};
+        const HorizonBuffer::Outline outline = buffer.outlineOf(ball);
+        if (outline.isBeside) continue;
+        core::BinHull cube{};
+        for (std::size_t k = 0; k < 8; ++k) cube.setCorner(k, ball.centre);
+        cube.reach = radius;
+        EXPECT_LE(outline.across.width(), 1.5 * buffer.outlineOf(cube).across.width());
+        for (int k = 0; k < 20; ++k) {
+            const glm::dvec3 eye(eyes.x * random.sign(), eyes.y * random.sign(), eyes.z * random.sign());
+            const glm::dvec3 onBall = ball.centre + radius * random.direction(), point = onBall - eye;
+            EXPECT_GE(onBall.y, outline.nearest);
+            EXPECT_TRUE(outline.across.contains(point.x / point.y));
+            EXPECT_TRUE(outline.heights.contains(point.z / point.y));
+        }
+    }
+}
+
+// Lines of sight that may meet terrain in front of the near plane.
+TEST(HorizonProfile, HidesNothingBelowTheLowestLine) {
+    Random random(1734);
+    int above = 0, below = 0;
+    for (int i = 0; i < 10; ++i) {
+        const OcclusionScene scene(random, false);
+        HorizonBuffer buffer = bufferOf(scene);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+        const HorizonProfile all(buffer);
+        const double lowest = -0.05;
+        buffer.setLowest(lowest);
+        const HorizonProfile cut(buffer);
+        for (int k = 0; k < kBallsInScene; ++k) {
+            const auto outline = all.outlineOf(inFrame(randomBall(random, scene), frameOf(scene)));
+            const bool isAbove = outline.heights.lower >= lowest;
+            EXPECT_EQ(cut.hides(outline), all.hides(outline) && isAbove);
+            if (all.hides(outline)) ++(isAbove ? above : below);
+        }
+    }
+    EXPECT_GT(above, 0);
+    EXPECT_GT(below, 0);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

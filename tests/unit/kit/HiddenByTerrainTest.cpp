@@ -1,0 +1,479 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Models behind hills and behind the horizon. Pictures and random scenes: tests/long/scenes. What the core proves:
+// HorizonProfileTest.cpp, HorizonTest.cpp.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+#include "RidgeGlobe.h"
+
+#include <osgAnalyticBin/Declarations.h>
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/AutoTransform>
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Depth>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/LOD>
+#include <osg/PolygonMode>
+#include <osg/Projection>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <support/Random.h>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// The ridge's globe, and a model beside the database that comes after it.
+struct ModelsOnGlobe : RidgeGlobe {
+    explicit ModelsOnGlobe(const CullOptions& options = withOcclusion()) {
+        scene = new osg::Group;
+        scene->addChild(root);
+        installBins(*root, options);
+    }
+
+    osg::ref_ptr<osg::MatrixTransform> add(const osg::Vec3d& at, osg::Group& group) {
+        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(at);
+        model->addCullCallback(new HiddenByTerrainCallback);
+        group.addChild(model);
+        return model;
+    }
+    osg::ref_ptr<osg::MatrixTransform> add(const osg::Vec3d& at) { return add(at, *scene); }
+};
+
+const osg::Vec3d kBehindRidge = ecefDeg(0.1, 0.9, 300.0), kBeforeRidge = ecefDeg(0.1, 0.3, 300.0),
+                 kAboveRidge = ecefDeg(0.1, 0.9, 20000.0), kBehindHorizon = ecefDeg(0.1, 15.0, 300.0);
+
+TEST(HiddenByTerrain, LeavesOutWhatIsBehindARidge) {
+    ModelsOnGlobe globe;
+    const auto behind = globe.add(kBehindRidge), before = globe.add(kBeforeRidge), above = globe.add(kAboveRidge);
+    const auto inDatabase = globe.add(kBehindRidge, *globe.root);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_FALSE(globe.draws(*behind, RidgeGlobe::alongRow()));
+        EXPECT_FALSE(globe.draws(*inDatabase, RidgeGlobe::alongRow()));
+        EXPECT_TRUE(globe.draws(*before, RidgeGlobe::alongRow()));
+        EXPECT_TRUE(globe.draws(*above, RidgeGlobe::alongRow()));
+    }
+}
+
+// The middle of a large one is behind the ridge.
+TEST(HiddenByTerrain, DrawsWhatReachesOverARidge) {
+    for (const bool isLarge : {false, true}) {
+        ModelsOnGlobe globe;
+        const auto model = globe.add(kBehindRidge);
+        if (isLarge) model->preMult(osg::Matrixd::scale(600.0, 600.0, 600.0));
+        EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isLarge);
+    }
+}
+
+TEST(HiddenByTerrain, AsksForAMovingModelWhereItIs) {
+    ModelsOnGlobe globe;
+    const auto model = globe.add(kBehindRidge);
+    const std::vector<std::pair<osg::Vec3d, bool>> way{
+        {kBehindRidge, false}, {kAboveRidge, true}, {kBehindRidge, false}, {kBeforeRidge, true}};
+    for (const auto& [at, isDrawn] : way) {
+        model->setMatrix(osg::Matrixd::translate(at));
+        EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isDrawn);
+    }
+}
+
+// A globe of large tiles, seen from above, and models on it.
+struct ModelsOnRoundGlobe : MeshGlobe {
+    explicit ModelsOnRoundGlobe(const CullOptions& options, double altitude = 0.0) : MeshGlobe(altitude) {
+        scene = new osg::Group;
+        scene->addChild(root);
+        installBins(*root, options);
+    }
+    // In the second of two views: whether the near plane may cut terrain is found out once a node has asked.
+    [[nodiscard]] bool drawsModelAt(const osg::Vec3d& at, const CullView& view) {
+        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(at);
+        model->addCullCallback(new HiddenByTerrainCallback);
+        scene->addChild(model);
+        (void)draws(*model, view);
+        const bool isDrawn = draws(*model, view);
+        scene->removeChild(model);
+        return isDrawn;
+    }
+};
+
+CullView fromAbove(double altitude = 5e5, double near = 1e3) {
+    CullView view = MeshGlobe::fromAbove(altitude);
+    view.projection = osg::Matrixd::perspective(100.0, 1.0, near, 1e8);
+    return view;
+}
+
+const osg::Vec3d kBelowEye = ecefDeg(22.5, -22.5, 300.0), kAntipode = ecefDeg(-22.5, 157.5, 300.0);
+
+TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizon) {
+    for (const OcclusionUse use : {OcclusionUse::On, OcclusionUse::Off}) {
+        CullOptions options;
+        options.occlusion = use;
+        ModelsOnRoundGlobe globe(options);
+        const CullView view = fromAbove();
+        EXPECT_FALSE(globe.drawsModelAt(kAntipode, view));
+        EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
+        EXPECT_TRUE(globe.drawsModelAt(ecefDeg(22.5, -22.5, 3e5), view));
+        options.horizonUse = HorizonUse::Off;
+        ModelsOnRoundGlobe without(options);
+        EXPECT_TRUE(without.drawsModelAt(kAntipode, view));
+    }
+}
+
+// Where a near plane cuts terrain open, models behind the horizon may be seen through it.
+TEST(HiddenByTerrain, HidesNothingBehindTheHorizonWhereTheNearPlaneMayCutTerrain) {
+    ModelsOnRoundGlobe globe(CullOptions(), 8000.0);
+    for (const double near : {1e3, 8e3})
+        EXPECT_EQ(globe.drawsModelAt(kAntipode, fromAbove(20000.0, near)), near > 4e3) << near;
+}
+
+// With a near plane far in front of the eye, a depth buffer tells distances apart that it does not otherwise.
+TEST(HiddenByTerrain, HidesBehindTheHorizonOnlyWhatADepthBufferTellsFromTerrain) {
+    ModelsOnRoundGlobe globe{CullOptions()};
+    for (const double near : {1e-3, 1e3})
+        EXPECT_EQ(globe.drawsModelAt(kAntipode, fromAbove(5e5, near)), near < 1.0) << near;
+}
+
+TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlane) {
+    ModelsOnRoundGlobe globe{CullOptions()};
+    CullView view = MeshGlobe::fromAbove();
+    view.camera = new osg::Camera;
+    view.camera->addChild(globe.scene);
+    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    EXPECT_FALSE(globe.drawsModelAt(kAntipode, view));
+    EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
+    // a plane at 5000 km
+    globe.visitor->setNearFarRatio(0.5);
+    EXPECT_TRUE(globe.drawsModelAt(kAntipode, view));
+}
+
+TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabase) {
+    ModelsOnGlobe globe;
+    const osg::ref_ptr<osg::Group> first = new osg::Group;
+    globe.scene->insertChild(0, first);
+    const auto model = globe.add(kBehindRidge, *first);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+    // above the database
+    ModelsOnGlobe whole;
+    whole.scene->addCullCallback(new HiddenByTerrainCallback);
+    const auto behind = whole.add(kBehindRidge);
+    EXPECT_TRUE(whole.draws(*behind, RidgeGlobe::alongRow()));
+}
+
+TEST(HiddenByTerrain, DrawsEverythingWithoutAViewOfADatabase) {
+    ModelsOnGlobe globe;
+    const auto model = globe.add(kBehindRidge);
+    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
+    // the database is not traversed any more
+    globe.root->setNodeMask(0);
+    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+    globe.root->setNodeMask(~0u);
+    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
+    // it hides nothing from below the ground, in wireframe, and with a tile that may not be drawn
+    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow(-100.0)));
+    CullView wire = RidgeGlobe::alongRow();
+    wire.states = new osg::StateSet;
+    wire.states->setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    EXPECT_TRUE(globe.draws(*model, wire));
+    globe.row[1]->setNodeMask(0);
+    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+    globe.row[1]->setNodeMask(~0u);
+    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
+    CullView unculled = RidgeGlobe::alongRow();
+    unculled.cullingMode = osg::CullSettings::NO_CULLING;
+    EXPECT_TRUE(globe.draws(*model, unculled));
+    removeBins(*globe.root);
+    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+}
+
+// A camera within the scene, and a projection, see something else.
+TEST(HiddenByTerrain, DrawsEverythingForOtherCamerasInTheSameTraversal) {
+    ModelsOnGlobe globe;
+    const CullView view = RidgeGlobe::alongRow();
+    const auto model = globe.add(kBehindRidge);
+    ASSERT_FALSE(globe.draws(*model, view));
+    globe.scene->removeChild(model);
+    const osg::ref_ptr<osg::Projection> projection = new osg::Projection(view.projection);
+    projection->addChild(model);
+    globe.scene->addChild(projection);
+    EXPECT_TRUE(globe.draws(*model, view));
+    globe.scene->removeChild(projection);
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setRenderOrder(osg::Camera::NESTED_RENDER);
+    camera->addChild(model);
+    globe.scene->addChild(camera);
+    EXPECT_TRUE(globe.draws(*model, view));
+}
+
+// The visitor of one frame sees from somewhere else in the next.
+TEST(HiddenByTerrain, ForgetsTheViewOfAnotherFrame) {
+    ModelsOnGlobe globe;
+    const osg::ref_ptr<osg::Group> first = new osg::Group;
+    globe.scene->insertChild(0, first);
+    const auto before = globe.add(kBehindRidge, *first), after = globe.add(kBehindRidge);
+    EXPECT_FALSE(globe.draws(*after, RidgeGlobe::alongRow()));
+    EXPECT_TRUE(globe.draws(*before, RidgeGlobe::alongRow()));
+    // and in another pass of the same one
+    --globe.frame;
+    const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0);
+    EXPECT_TRUE(globe.draws(*before, high));
+    EXPECT_TRUE(globe.draws(*after, high));
+}
+
+using Change = std::function<void(osg::MatrixTransform& model)>;
+
+osg::Geometry& meshOf(osg::MatrixTransform& model) {
+    return *drawableOf(model)->asGeometry();
+}
+osg::StateSet& stateOf(osg::MatrixTransform& model) {
+    return *meshOf(model).getOrCreateStateSet();
+}
+
+class NoDrawing : public osg::Drawable::DrawCallback {};
+class OwnGeometry : public osg::Geometry {
+public:
+    explicit OwnGeometry(const osg::Geometry& other) : osg::Geometry(other) {}
+};
+class OwnSphere : public osg::Node::ComputeBoundingSphereCallback {};
+class OwnBox : public osg::Drawable::ComputeBoundingBoxCallback {};
+class OwnCull : public osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
+};
+
+void wrap(osg::MatrixTransform& model, osg::Group& group) {
+    const osg::ref_ptr<osg::Node> child = model.getChild(0);
+    model.removeChild(child);
+    group.addChild(child);
+    model.addChild(&group);
+}
+
+// What may be drawn in front of terrain, or outside of its sphere.
+TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
+    const std::vector<std::pair<std::string, Change>> changes{
+        {"no depth test", [](auto& model) { stateOf(model).setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
+        {"the same on the node",
+         [](auto& model) { model.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
+        {"always", [](auto& model) { stateOf(model).setAttribute(new osg::Depth(osg::Depth::ALWAYS)); }},
+        {"a range of depths",
+         [](auto& model) { stateOf(model).setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 0.1)); }},
+        {"shaders", [](auto& model) { stateOf(model).setAttribute(new osg::Program); }},
+        {"a bin of its own", [](auto& model) { stateOf(model).setRenderBinDetails(3, "SomeBin"); }},
+        {"outlines",
+         [](auto& model) {
+             stateOf(model).setAttribute(
+                 new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+         }},
+        {"points", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},
+        {"lines", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_LINE_STRIP); }},
+        {"a draw callback", [](auto& model) { meshOf(model).setDrawCallback(new NoDrawing); }},
+        {"an update callback of the mesh",
+         [](auto& model) { meshOf(model).setUpdateCallback(new osg::DrawableUpdateCallback); }},
+        {"a cull callback", [](auto& model) { model.addCullCallback(new OwnCull); }},
+        {"a cull callback below", [](auto& model) { model.getChild(0)->addCullCallback(new OwnCull); }},
+        {"a bound of its own", [](auto& model) { model.setComputeBoundingSphereCallback(new OwnSphere); }},
+        {"a box of its own", [](auto& model) { meshOf(model).setComputeBoundingBoxCallback(new OwnBox); }},
+        {"no culling", [](auto& model) { model.setCullingActive(false); }},
+        {"no culling below", [](auto& model) { model.getChild(0)->setCullingActive(false); }},
+        {"another frame",
+         [](auto& model) {
+             const osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
+             absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+             wrap(model, *absolute);
+         }},
+        {"a frame that turns to the eye", [](auto& model) { wrap(model, *new osg::AutoTransform); }},
+        {"a shear",
+         [](auto& model) {
+             wrap(model, *new osg::MatrixTransform(osg::Matrixd(1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)));
+         }},
+        {"a sphere that is too small",
+         [](auto& model) {
+             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+             lod->setCenter(osg::Vec3());
+             lod->setRadius(1.0f);
+             wrap(model, *lod);
+             lod->setRange(0, 0.0f, 1e9f);
+         }},
+        {"a billboard",
+         [](auto& model) {
+             const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+             billboard->addDrawable(&meshOf(model));
+             model.removeChildren(0, 1);
+             model.addChild(billboard);
+         }},
+        {"a class of the application's",
+         [](auto& model) { model.getChild(0)->asGroup()->addChild(new OwnGeometry(meshOf(model))); }},
+        {"a camera", [](auto& model) { wrap(model, *new osg::Camera); }},
+    };
+    for (const auto& [name, change] : changes) {
+        ModelsOnGlobe globe;
+        const auto model = globe.add(kBehindRidge);
+        ASSERT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
+        bool isEntered = false;
+        struct Entered : public osg::NodeCallback {
+            explicit Entered(bool& entered) : isEntered(entered) {}
+            void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+                isEntered = true;
+                traverse(node, nv);
+            }
+            bool& isEntered;
+        };
+        change(*model);
+        const osg::ref_ptr<Entered> entered = new Entered(isEntered);
+        setTraversesAlways(*entered);
+        model->addCullCallback(entered);
+        (void)globe.draws(*globe.row[0], RidgeGlobe::alongRow());
+        EXPECT_TRUE(isEntered) << name;
+    }
+}
+
+TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
+    const std::vector<std::pair<std::string, Change>> changes{
+        {"a texture unit", [](auto& model) { stateOf(model).setTextureMode(0, GL_TEXTURE_2D, 1); }},
+        {"blending", [](auto& model) { stateOf(model).setMode(GL_BLEND, osg::StateAttribute::ON); }},
+        {"shaders that draw triangles",
+         [](auto& model) {
+             const osg::ref_ptr<osg::Program> program = new osg::Program;
+             setDrawsTriangles(*program);
+             stateOf(model).setAttribute(program);
+         }},
+        {"levels of detail",
+         [](auto& model) {
+             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+             wrap(model, *lod);
+             lod->setRange(0, 0.0f, 1e9f);
+         }},
+        {"a level in a sphere of the user's",
+         [](auto& model) {
+             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+             lod->setCenter(osg::Vec3());
+             lod->setRadius(200.0f);
+             wrap(model, *lod);
+             lod->setRange(0, 0.0f, 1e9f);
+         }},
+        {"another node that asks",
+         [](auto& model) { model.getChild(0)->addCullCallback(new HiddenByTerrainCallback); }},
+        {"an update callback", [](auto& model) { model.setUpdateCallback(new osg::NodeCallback); }},
+        {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }},
+    };
+    for (const auto& [name, change] : changes) {
+        ModelsOnGlobe globe;
+        const auto model = globe.add(kBehindRidge);
+        change(*model);
+        EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow())) << name;
+        EXPECT_EQ(drawableOf(*model) == nullptr, false) << name;
+    }
+}
+
+TEST(HiddenByTerrain, FollowsStatesAbove) {
+    for (const bool ignoresDepth : {false, true}) {
+        ModelsOnGlobe globe;
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        if (ignoresDepth) group->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        globe.scene->addChild(group);
+        const auto first = globe.add(kBehindRidge, *group), second = globe.add(kBehindRidge, *group);
+        const auto other = globe.add(kBehindRidge);
+        stateOf(*second).setMode(GL_BLEND, osg::StateAttribute::ON);
+        EXPECT_EQ(globe.draws(*first, RidgeGlobe::alongRow()), ignoresDepth);
+        EXPECT_EQ(globe.draws(*second, RidgeGlobe::alongRow()), ignoresDepth);
+        EXPECT_FALSE(globe.draws(*other, RidgeGlobe::alongRow()));
+    }
+}
+
+// Models in thousands do not keep the kit from knowing the near plane.
+TEST(HiddenByTerrain, LeavesOutModelsWhereOsgComputesTheNearPlane) {
+    ModelsOnGlobe globe;
+    CullView view = RidgeGlobe::alongRow();
+    view.camera = new osg::Camera;
+    view.camera->addChild(globe.scene);
+    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    globe.visitor->setNearFarRatio(1e-5);
+    std::vector<osg::ref_ptr<osg::MatrixTransform>> models;
+    for (int i = 0; i < 1000; ++i) models.push_back(globe.add(kBehindRidge));
+    EXPECT_FALSE(globe.draws(*models.back(), view));
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    // a plane at 100 km
+    const auto far = globe.add(ecefDeg(0.1, 0.3, 300.0) + osg::Vec3d(0.0, 1e10, 0.0));
+    EXPECT_TRUE(globe.draws(*models.back(), view));
+    EXPECT_TRUE(globe.drawsFarTile(view));
+}
+
+// A tile that may be left out hides nothing.
+TEST(HiddenByTerrain, OnATileKeepsTheDatabaseFromHiding) {
+    ModelsOnGlobe globe;
+    const auto model = globe.add(kBehindRidge);
+    globe.row[2]->addCullCallback(new HiddenByTerrainCallback);
+    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+    EXPECT_TRUE(globe.draws(*globe.row[2], RidgeGlobe::alongRow()));
+}
+
+// From high above, the ridge hides no tile whole, and the search rests unless it hides models.
+TEST(HiddenByTerrain, KeepsTheSearchGoingWhereItIsWorthIt) {
+    ModelsOnGlobe globe{CullOptions()};
+    const osg::Vec3d behind = ecefDeg(0.1, 0.68, 300.0);
+    const CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 12000.0), behind, {1, 0, 0}, 60.0);
+    ModelsOnGlobe always;
+    ASSERT_FALSE(always.draws(*always.add(behind), view));
+    const auto model = globe.add(behind);
+    for (int i = 0; i < 40; ++i) globe.add(kBeforeRidge);
+    const auto hiddenViews = [&] {
+        int hidden = 0;
+        for (int i = 0; i < 400; ++i) {
+            update(*globe.scene);
+            const bool isDrawn = globe.draws(*model, view);
+            if (i >= 360 && !isDrawn) ++hidden;
+        }
+        return hidden;
+    };
+    EXPECT_LT(hiddenViews(), 20);
+    for (int i = 0; i < 100; ++i) globe.add(behind);
+    EXPECT_EQ(hiddenViews(), 40);
+}
+
+// Line of sight against what is left out: random towers and eyes about the ridge, far from its ends.
+TEST(HiddenByTerrain, NeverLeavesOutWhatStandsAboveTheLineOverTheRidge) {
+    ModelsOnGlobe globe;
+    Random random(1741);
+    const auto model = globe.add(kBehindRidge);
+    const double radius = osg::WGS_84_RADIUS_EQUATOR;
+    int hidden = 0, seen = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const double longitude = random.uniform(0.62, 1.9), height = random.logUniform(60.0, 30000.0);
+        const double eyeHeight = random.uniform(200.0, 7000.0);
+        model->setMatrix(osg::Matrixd::translate(ecefDeg(0.1, longitude, height)));
+        const CullView view =
+            CullView::lookAt(ecefDeg(0.1, 0.1, eyeHeight), ecefDeg(0.1, 1.0, eyeHeight), {1, 0, 0}, 100.0);
+        const bool isDrawn = globe.draws(*model, view);
+        // in the plane of the equator: the near edge of the ridge's top is the first thing that may hide the tower
+        const auto at = [&](double degrees, double altitude) {
+            const double angle = degrees * osg::PI / 180.0;
+            return osg::Vec3d((radius + altitude) * std::cos(angle), (radius + altitude) * std::sin(angle), 0.0);
+        };
+        const osg::Vec3d eye = at(0.1, eyeHeight), top = at(longitude, height + 50.0);
+        bool isBlocked = false;
+        for (int k = 0; k <= 200; ++k) {
+            const osg::Vec3d point = eye + (top - eye) * (k / 200.0);
+            const double degrees = std::atan2(point.y(), point.x()) * 180.0 / osg::PI;
+            const bool isOverRidge = degrees > 0.39 && degrees < 0.61;
+            isBlocked = isBlocked || point.length() - radius < (isOverRidge ? 8050.0 : 50.0);
+        }
+        if (isBlocked) {
+            hidden += !isDrawn;
+        } else {
+            ++seen;
+            EXPECT_TRUE(isDrawn) << longitude << " degrees, " << height << " m, from " << eyeHeight << " m";
+        }
+    }
+    EXPECT_GT(hidden, 100);
+    EXPECT_GT(seen, 50);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
