@@ -111,7 +111,7 @@ CullView fromAbove(double altitude = 5e5, double near = 1e3) {
     return view;
 }
 
-const osg::Vec3d kBelowEye = ecefDeg(22.5, -22.5, 300.0), kAntipode = ecefDeg(-22.5, 157.5, 300.0);
+const osg::Vec3d kBelowEye = ecefDeg(22.5, -22.5, 300.0), kOtherSide = ecefDeg(-22.5, 157.5, 300.0);
 
 TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizon) {
     for (const OcclusionUse use : {OcclusionUse::On, OcclusionUse::Off}) {
@@ -119,12 +119,12 @@ TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizon) {
         options.occlusion = use;
         ModelsOnRoundGlobe globe(options);
         const CullView view = fromAbove();
-        EXPECT_FALSE(globe.drawsModelAt(kAntipode, view));
+        EXPECT_FALSE(globe.drawsModelAt(kOtherSide, view));
         EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
         EXPECT_TRUE(globe.drawsModelAt(ecefDeg(22.5, -22.5, 3e5), view));
         options.horizonUse = HorizonUse::Off;
         ModelsOnRoundGlobe without(options);
-        EXPECT_TRUE(without.drawsModelAt(kAntipode, view));
+        EXPECT_TRUE(without.drawsModelAt(kOtherSide, view));
     }
 }
 
@@ -132,14 +132,14 @@ TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizon) {
 TEST(HiddenByTerrain, HidesNothingBehindTheHorizonWhereTheNearPlaneMayCutTerrain) {
     ModelsOnRoundGlobe globe(CullOptions(), 8000.0);
     for (const double near : {1e3, 8e3})
-        EXPECT_EQ(globe.drawsModelAt(kAntipode, fromAbove(20000.0, near)), near > 4e3) << near;
+        EXPECT_EQ(globe.drawsModelAt(kOtherSide, fromAbove(20000.0, near)), near > 4e3) << near;
 }
 
 // With a near plane far in front of the eye, a depth buffer tells distances apart that it does not otherwise.
 TEST(HiddenByTerrain, HidesBehindTheHorizonOnlyWhatADepthBufferTellsFromTerrain) {
     ModelsOnRoundGlobe globe{CullOptions()};
     for (const double near : {1e-3, 1e3})
-        EXPECT_EQ(globe.drawsModelAt(kAntipode, fromAbove(5e5, near)), near < 1.0) << near;
+        EXPECT_EQ(globe.drawsModelAt(kOtherSide, fromAbove(5e5, near)), near < 1.0) << near;
 }
 
 TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlane) {
@@ -148,11 +148,11 @@ TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlan
     view.camera = new osg::Camera;
     view.camera->addChild(globe.scene);
     view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-    EXPECT_FALSE(globe.drawsModelAt(kAntipode, view));
+    EXPECT_FALSE(globe.drawsModelAt(kOtherSide, view));
     EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
     // a plane at 5000 km
     globe.visitor->setNearFarRatio(0.5);
-    EXPECT_TRUE(globe.drawsModelAt(kAntipode, view));
+    EXPECT_TRUE(globe.drawsModelAt(kOtherSide, view));
 }
 
 TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabase) {
