@@ -22,7 +22,7 @@ using core::BinBall;
 using core::HorizonBuffer;
 using core::HorizonProfile;
 
-constexpr int kRays = 24;
+constexpr int kRaysOfAll = 24;
 constexpr int kBallsInScene = 60;
 
 HorizonProfile profileOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0)) {
@@ -46,7 +46,7 @@ BinBall inFrame(const BinBall& ball, const core::Frame& frame) {
 
 // Whether no ray reaches the ball.
 bool isUnseen(Random& random, const OcclusionScene& scene, const BinBall& ball) {
-    for (int ray = 0; ray < kRays; ++ray) {
+    for (int ray = 0; ray < kRaysOfAll; ++ray) {
         const RealVector point = real(ball.centre + ball.radius * random.direction());
         if (isBeforeTheCamera(scene, point) && !scene.isBlocked(point)) return false;
     }
