@@ -12,6 +12,7 @@
 #include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Callback>
+#include <osg/ClusterCullingCallback>
 #include <osg/Node>
 
 namespace osgAnalyticBin {
