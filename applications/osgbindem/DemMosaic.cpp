@@ -4,10 +4,10 @@
 #include "DemMosaic.h"
 
 #include "Failure.h"
-#include "TileLayout.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgbindem {
 
@@ -23,49 +23,75 @@ double postsPerThread(const Settings& settings) {
 
 }  // namespace
 
-DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(postsPerThread(settings)) {
+std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings, const TileLayout* layout) {
+    std::vector<RasterOptions> rasters;
     for (const DemInput& dem : settings.dems) {
-        DemOptions options;
-        options.raster.path = dem.path;
-        options.raster.nodata = settings.nodata;
-        options.raster.isWgs84 = settings.isWgs84;
-        options.raster.spacingDeg = settings.useOverviews ? spacingDeg : 0.0;
+        RasterOptions options;
+        options.path = dem.path;
+        options.nodata = settings.nodata;
+        options.isWgs84 = settings.isWgs84;
+        if (settings.useOverviews && layout) options.spacingDeg = layout->spacingDeg(layout->deepestLevel());
         options.metresPerUnit = dem.metresPerUnit;
-        _sources.push_back(std::make_unique<DemSource>(options));
+        rasters.push_back(std::move(options));
     }
-    std::stable_sort(_sources.begin(), _sources.end(), [](const auto& a, const auto& b) {
-        return a->grid().resolutionDeg() < b->grid().resolutionDeg();
-    });
-    for (const auto& source : _sources) _shifts.emplace_back(source->raster(), settings.geoid);
-    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
-        _sources[i]->setCoarser([this, i](const PositionDeg& position) {
-            auto height = heightFrom(i + 1, position);
-            if (height) *height -= _shifts[i].at(position);
-            return height;
-        });
-    }
+    return RasterLayer::layersOf(rasters, layout ? std::optional(layout->cells()) : std::nullopt);
+}
+
+DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _mostPosts(postsPerThread(settings)) {
     std::vector<RasterGrid> grids;
-    for (const auto& source : _sources) grids.push_back(source->grid());
-    for (const RasterGrid& grid : grids) {
-        _bands.emplace_back(grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+    for (auto& layer : elevationLayers(settings, layout)) {
+        for (const RasterLayer::Member& member : layer->members()) grids.push_back(member.grid);
+        _shifts.emplace_back(layer->vertical(), settings.geoid, layer->path());
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer)));
+    }
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        if (i + 1 < _sources.size()) {
+            _sources[i]->setCoarser([this, i](const PositionDeg& position) { return below(i, position); });
+        }
+        _bands.emplace_back();
+        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
+            BlendBand band(member.grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+            if (!band.isEmpty()) _bands.back().push_back(std::move(band));
+        }
     }
 }
 
-std::optional<double> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
+VoidFill::Below DemMosaic::below(std::size_t source, const PositionDeg& position) {
+    // Coarser than that, a raster knows less of a void than the posts around it.
+    constexpr double kRival = 1.5;
+    const auto found = heightFrom(source + 1, position);
+    if (!found) return {};
+    const double rivalDeg = kRival * _sources[source]->layer().spacingDeg();
+    return {found->metres - _shifts[source].at(position),
+            !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg};
+}
+
+double DemMosaic::share(std::size_t source, const PositionDeg& position) const noexcept {
+    double share = 1.0;
+    for (const BlendBand& band : _bands[source]) {
+        if (share > 0.0) share = std::min(share, band.share(position));
+    }
+    return share;
+}
+
+std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
-        auto height = _sources[i]->height(position);
+        const auto height = _sources[i]->height(position);
         if (!height) continue;
-        if (!_shifts[i].isNone()) *height += _shifts[i].at(position);
-        const double share = _bands[i].share(position);
-        if (share == 1.0) return height;
+        Found found{height->metres, height->isFilled, i};
+        if (!_shifts[i].isNone()) found.metres += _shifts[i].at(position);
+        const double own = share(i, position);
+        if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);
-        return coarser ? *coarser + share * (*height - *coarser) : height;
+        if (coarser) found.metres = coarser->metres + own * (found.metres - coarser->metres);
+        return found;
     }
     return std::nullopt;
 }
 
 double DemMosaic::height(const PositionDeg& position) {
-    return heightFrom(0, position).value_or(0.0);
+    const auto found = heightFrom(0, position);
+    return found ? found->metres : 0.0;
 }
 
 bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, HeightRange& range) {
@@ -96,7 +122,9 @@ HeightRange DemMosaic::range(const RectDeg& rect) {
     bool isCovered = false;
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         const bool isComplete = addRange(i, rect, range);
-        if (isComplete && !_bands[i].touches(rect)) return range;
+        const bool isBlended =
+            std::any_of(_bands[i].begin(), _bands[i].end(), [&](const BlendBand& band) { return band.touches(rect); });
+        if (isComplete && !isBlended) return range;
         isCovered = isCovered || isComplete;
     }
     if (!isCovered) range.include(0.0);
@@ -116,14 +144,16 @@ void DemMosaic::prefetch(const RectDeg& rect) {
 
 void DemMosaic::requireData() {
     for (const auto& source : _sources) {
-        if (!source->hasAnyData()) {
-            throw Failure("no heights in \"" + source->path() + "\", only missing data; leave it out, or see --nodata");
+        for (const RasterLayer::Member& member : source->layer().members()) {
+            if (member.file->hasHeights(member.file->look())) continue;
+            throw Failure("no heights in \"" + member.file->path() +
+                          "\", only missing data; leave it out, or see --nodata");
         }
     }
 }
 
 double DemMosaic::finestDeg() const noexcept {
-    return _sources.front()->grid().resolutionDeg();
+    return _sources.front()->layer().spacingDeg();
 }
 
 double DemMosaic::finestGlobalDeg() const noexcept {

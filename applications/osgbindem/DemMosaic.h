@@ -6,6 +6,7 @@
 #include "BlendBand.h"
 #include "DemSource.h"
 #include "Settings.h"
+#include "TileLayout.h"
 #include "VerticalShift.h"
 
 #include <cstddef>
@@ -15,13 +16,18 @@
 
 namespace osgbindem {
 
-/// All elevation rasters as one: at each position the finest raster that has data there, voids filled from those below
+/// The elevation rasters of the command line, for tiles of the layout where there is one: then of the overviews that
+/// are as fine, where settings allow them, and warped to posts of tiles. Throws Failure.
+[[nodiscard]] std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings,
+                                                                        const TileLayout* layout);
+
+/// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
 /// it, its border blended with them, and 0 m where none has.
-/// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
+/// Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
-    /// With a spacing of posts, of the overviews that are as fine, where settings allow them. Throws Failure.
-    explicit DemMosaic(const Settings& settings, double spacingDeg = 0.0);
+    /// Throws Failure.
+    explicit DemMosaic(const Settings& settings, const TileLayout* layout = nullptr);
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
@@ -49,8 +55,20 @@ public:
     [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
 
 private:
-    /// Of the rasters from this one on, finest first; nullopt where none of them has data.
-    [[nodiscard]] std::optional<double> heightFrom(std::size_t source, const PositionDeg& position);
+    struct Found {
+        double metres = 0.0;
+        bool isFilled = false;
+        std::size_t source = 0;
+    };
+
+    /// Of the layers from this one on, finest first; nullopt where none of them has data.
+    [[nodiscard]] std::optional<Found> heightFrom(std::size_t source, const PositionDeg& position);
+
+    /// What the coarser layers have, as heights of this one.
+    [[nodiscard]] VoidFill::Below below(std::size_t source, const PositionDeg& position);
+
+    /// A layer's share of the height, less than 1 in the bands at its rasters' borders.
+    [[nodiscard]] double share(std::size_t source, const PositionDeg& position) const noexcept;
 
     /// As DemSource::addRange(), above the ellipsoid.
     [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
@@ -59,8 +77,8 @@ private:
     std::vector<std::unique_ptr<DemSource>> _sources;
     /// One for each source.
     std::vector<VerticalShift> _shifts;
-    /// One for each source.
-    std::vector<BlendBand> _bands;
+    /// Of each source, those of its rasters that have one.
+    std::vector<std::vector<BlendBand>> _bands;
 };
 
 }  // namespace osgbindem

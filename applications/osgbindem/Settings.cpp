@@ -4,9 +4,9 @@
 #include "Settings.h"
 
 #include "Failure.h"
-#include "GdalRaster.h"
 #include "NumberRange.h"
 #include "ProgramRun.h"
+#include "RasterFile.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -93,7 +93,8 @@ void takeDems(Arguments& arguments) {
                          std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
     }
     for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
-        const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
+        std::optional<double> scale;
+        if (!scales.empty()) scale = scales[scales.size() == 1 ? 0 : i];
         arguments.settings.dems.push_back({arguments.dems[i], scale});
     }
 }
@@ -151,7 +152,8 @@ void declare(CLI::App& app, Arguments& arguments) {
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
     app.add_option("--height-unit,--scale", arguments.scales,
-                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m); "
+                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default: the "
+                   "unit in the raster, else m); "
                    "--scale is its older name")
         ->delimiter(',');
     app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");

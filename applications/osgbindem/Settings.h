@@ -16,8 +16,8 @@ namespace osgbindem {
 /// One elevation raster as named on the command line.
 struct DemInput {
     std::string path;
-    /// Metres per unit of the raster's heights.
-    double metresPerUnit = 1.0;
+    /// Metres per unit of the raster's heights; without it, what the raster declares.
+    std::optional<double> metresPerUnit = std::nullopt;
 };
 
 /// Everything the command line says.

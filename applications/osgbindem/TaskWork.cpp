@@ -91,7 +91,7 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
 }
 
 std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
-    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
+    DemMosaic mosaic(settings, &layout);
     EdgeDepths depths(mosaic, layout);
     return planTasks(mosaic, depths, layout);
 }

@@ -30,7 +30,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
     : _settings(settings),
       _layout(layout),
       _files(files),
-      _mosaic(settings, layout.spacingDeg(layout.deepestLevel())),
+      _mosaic(settings, &layout),
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
       _images(settings),
