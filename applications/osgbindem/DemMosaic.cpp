@@ -15,6 +15,9 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
+// So many times coarser at most, a raster knows more of a void than the posts around it.
+constexpr double kRival = 1.5;
+
 // Half of the memory is GDAL's cache, the other half the windows that the threads keep.
 double postsPerThread(const Settings& settings) {
     const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
@@ -46,7 +49,8 @@ DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _most
     }
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         if (i + 1 < _sources.size()) {
-            _sources[i]->setCoarser([this, i](const PositionDeg& position) { return below(i, position); });
+            const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
+            _sources[i]->setCoarser([this, i](const PositionDeg& position) { return below(i, position); }, hasRivals);
         }
         _bands.emplace_back();
         for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
@@ -57,8 +61,6 @@ DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _most
 }
 
 VoidFill::Below DemMosaic::below(std::size_t source, const PositionDeg& position) {
-    // Coarser than that, a raster knows less of a void than the posts around it.
-    constexpr double kRival = 1.5;
     const auto found = heightFrom(source + 1, position);
     if (!found) return {};
     const double rivalDeg = kRival * _sources[source]->layer().spacingDeg();

@@ -25,20 +25,25 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-DemSource::DemSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)), _voids(voidFill({})) {}
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)), _voids(voidFill({}, false)) {}
 
-VoidFill DemSource::voidFill(VoidFill::Coarser coarser) {
+VoidFill DemSource::voidFill(VoidFill::Coarser coarser, bool hasRivals) {
     const auto readPosts = [this](const PixelWindow& window, std::vector<double>& heights) {
         read(_layer->dataset(), window, heights);
     };
     std::vector<PixelWindow> parts;
     for (const RasterLayer::Member& member : _layer->members()) parts.push_back(member.window);
-    return {{grid().columns(), grid().rows(), grid().isGlobal(), std::move(parts)}, readPosts, std::move(coarser)};
+    return {{grid().columns(), grid().rows(), grid().isGlobal(), std::move(parts)},
+            readPosts,
+            std::move(coarser),
+            hasRivals};
 }
 
-void DemSource::setCoarser(Coarser coarser) {
-    _voids = voidFill(
-        [this, coarser = std::move(coarser)](int column, int row) { return coarser(grid().position(column, row)); });
+void DemSource::setCoarser(Coarser coarser, bool hasRivals) {
+    const auto at = [this, coarser = std::move(coarser)](int column, int row) {
+        return coarser(grid().position(column, row));
+    };
+    _voids = voidFill(at, hasRivals);
 }
 
 void DemSource::read(GDALDataset& dataset, const PixelWindow& window, std::vector<double>& heights) {
@@ -64,13 +69,11 @@ const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noex
     return nullptr;
 }
 
-SourceHeight DemSource::post(int column, int row) {
+double DemSource::ownPost(int column, int row) {
     const Page* page = pageWith({column, row, 1, 1});
-    if (page == nullptr) read(_layer->dataset(), {column, row, 1, 1}, _scratch);
-    const double height =
-        page == nullptr ? _scratch.front() : page->heights[static_cast<std::size_t>(page->offset(column, row))];
-    if (std::isnan(height)) return {_voids.at(column, row), true};
-    return {height, false};
+    if (page != nullptr) return page->heights[static_cast<std::size_t>(page->offset(column, row))];
+    read(_layer->dataset(), {column, row, 1, 1}, _scratch);
+    return _scratch.front();
 }
 
 std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
@@ -85,14 +88,18 @@ std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
         }
     }
     SourceHeight result;
+    bool isOwn = false;
     const auto at = [&](int column, int row) {
-        if (page != nullptr) {
-            const double height = page->heights[static_cast<std::size_t>(page->offset(column, row))];
-            if (!std::isnan(height)) return height;
+        const double height =
+            page == nullptr ? ownPost(column, row) : page->heights[static_cast<std::size_t>(page->offset(column, row))];
+        if (!std::isnan(height)) {
+            isOwn = true;
+            return height;
         }
-        const SourceHeight height = post(column, row);
-        result.isFilled = result.isFilled || height.isFilled;
-        return height.metres;
+        const VoidFill::Below filled = _voids.at(column, row);
+        isOwn = isOwn || !filled.isRival;
+        result.isFilled = result.isFilled || !filled.isRival;
+        return filled.height;
     };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
@@ -104,7 +111,8 @@ std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
                                       : at(cell->west, cell->second);
         result.metres = (1.0 - v) * first + v * second;
     }
-    if (std::isnan(result.metres)) return std::nullopt;
+    // Among posts of rivals alone the rival itself knows better.
+    if (std::isnan(result.metres) || !isOwn) return std::nullopt;
     return result;
 }
 
@@ -146,9 +154,13 @@ bool DemSource::addRange(const PixelWindow& window, HeightRange& range) {
         std::vector<double> heights = std::move(_scratch);  // filling voids may read
         for (std::size_t i = 0; i < heights.size(); ++i) {
             const int place = static_cast<int>(i);
-            const double height = std::isnan(heights[i])
-                                      ? _voids.at(part.column + place % part.width, part.row + place / part.width)
-                                      : heights[i];
+            double height = heights[i];
+            if (std::isnan(height)) {
+                const VoidFill::Below filled =
+                    _voids.at(part.column + place % part.width, part.row + place / part.width);
+                height = filled.height;
+                isComplete = isComplete && !filled.isRival;
+            }
             if (std::isnan(height)) {
                 isComplete = false;
             } else {

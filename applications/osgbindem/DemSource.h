@@ -35,7 +35,7 @@ struct HeightRange {
 /// A height of a raster.
 struct SourceHeight {
     double metres = 0.0;
-    /// No data of the raster's: what stands in a void.
+    /// No data: what stands in a void.
     bool isFilled = false;
 };
 
@@ -57,7 +57,8 @@ public:
     using Coarser = std::function<VoidFill::Below(const PositionDeg&)>;
 
     /// Fills wide voids too, from what coarser rasters have there; before the first height is asked for.
-    void setCoarser(Coarser coarser);
+    /// `hasRivals`: whether some of them are nearly as fine.
+    void setCoarser(Coarser coarser, bool hasRivals);
 
     /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
     [[nodiscard]] std::optional<SourceHeight> height(const PositionDeg& position);
@@ -90,8 +91,8 @@ private:
     [[nodiscard]] bool hasData(const PixelWindow& window);
     [[nodiscard]] bool windowHasData(const PixelWindow& window);
     [[nodiscard]] bool blockHasData(int blockColumn, int blockRow);
-    [[nodiscard]] SourceHeight post(int column, int row);
-    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser);
+    [[nodiscard]] double ownPost(int column, int row);
+    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser, bool hasRivals);
     [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
 
     std::unique_ptr<RasterLayer> _layer;

@@ -111,6 +111,8 @@ struct VoidFill::Window {
     /// Of each post: beyond the raster's border, and that of a void too wide to be interpolated.
     std::vector<bool> isOutside;
     std::vector<bool> isWide;
+    /// Of each post: that of a rival's height.
+    std::vector<bool> isRival;
 
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(posts.width) + static_cast<std::size_t>(x);
@@ -177,7 +179,7 @@ private:
     }
 };
 
-double VoidFill::at(int column, int row) {
+VoidFill::Below VoidFill::at(int column, int row) {
     const int blocksPerRow = (_shape.width + kVoidBlock - 1) / kVoidBlock;
     const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
                             std::min(kVoidBlock, _shape.width - column / kVoidBlock * kVoidBlock),
@@ -188,14 +190,15 @@ double VoidFill::at(int column, int row) {
         throwIfStopRequested();
         if (_held >= kMostHeld) {
             for (auto it = _blocks.begin(); it != _blocks.end();)
-                it = it->second.empty() ? std::next(it) : _blocks.erase(it);
+                it = it->second.heights.empty() ? std::next(it) : _blocks.erase(it);
             _held = 0;
         }
         found = _blocks.emplace(number, filled(block)).first;
-        if (!found->second.empty()) ++_held;
+        if (!found->second.heights.empty()) ++_held;
     }
-    if (found->second.empty()) return kMissing;
-    return found->second[static_cast<std::size_t>((row - block.row) * block.width + column - block.column)];
+    if (found->second.heights.empty()) return {};
+    const auto post = static_cast<std::size_t>((row - block.row) * block.width + column - block.column);
+    return {found->second.heights[post], found->second.isRival[post]};
 }
 
 void VoidFill::read(Window& window) const {
@@ -248,22 +251,43 @@ void VoidFill::findOutside(Window& window) const {
     }
 }
 
-std::vector<float> VoidFill::filled(const PixelWindow& block) const {
+void VoidFill::takeRivals(Window& window) const {
+    for (int y = 0; y < window.posts.height; ++y) {
+        for (int x = 0; x < window.posts.width; ++x) {
+            if (!window.isVoid(x, y)) continue;
+            const Below below = belowAt(window, x, y);
+            if (!below.isRival) continue;
+            window.heights[window.index(x, y)] = below.height;
+            window.isRival[window.index(x, y)] = true;
+        }
+    }
+}
+
+VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
     Window window;
     window.block = block;
     read(window);
+    window.isRival.assign(window.heights.size(), false);
+    findOutside(window);
+    if (_hasRivals) takeRivals(window);
     const std::vector<GByte> isKnown = window.known();
     if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
-    findOutside(window);
     const std::vector<float> distances = distancesTo(isKnown, window.posts.width, window.posts.height);
     window.sortVoids(distances);
-    std::vector<float> result(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kMissing);
+    Block result;
     bool hasNarrow = false;
     bool hasWide = false;
+    for (int row = block.row; row < block.row + block.height; ++row) {
+        for (int column = block.column; column < block.column + block.width; ++column) {
+            const std::size_t i = window.index(column - window.posts.column, row - window.posts.row);
+            result.isRival.push_back(window.isRival[i]);
+            result.heights.push_back(window.isRival[i] ? static_cast<float>(window.heights[i]) : kMissing);
+        }
+    }
     window.forMissing(
         [&](int x, int y, std::size_t) { (window.isWide[window.index(x, y)] ? hasWide : hasNarrow) = true; });
-    if (hasNarrow) interpolateNarrow(window, result);
-    if (hasWide && _coarser) addDifferences(window, distances, result);
+    if (hasNarrow) interpolateNarrow(window, result.heights);
+    if (hasWide && _coarser) addDifferences(window, distances, result.heights);
     return result;
 }
 
@@ -278,8 +302,7 @@ void VoidFill::interpolateNarrow(const Window& window, std::vector<float>& resul
     }
     interpolate(window.posts.width, window.posts.height, values, isKnown, kNarrow);
     window.forMissing([&](int x, int y, std::size_t i) {
-        if (window.isWide[window.index(x, y)] || (_coarser && belowAt(window, x, y).isRival)) return;
-        result[i] = values[window.index(x, y)];
+        if (!window.isWide[window.index(x, y)]) result[i] = values[window.index(x, y)];
     });
 }
 
@@ -316,9 +339,7 @@ void VoidFill::addDifferences(const Window& window, const std::vector<float>& di
     window.forMissing([&](int x, int y, std::size_t i) {
         const std::size_t j = window.index(x, y);
         if (!window.isWide[j] || distances[j] >= kReach) return;
-        const Below below = belowAt(window, x, y);
-        if (below.isRival) return;
-        const double coarser = below.height;
+        const double coarser = belowAt(window, x, y).height;
         const double onLand = fade(distances[j], 0.5 * kReach, kReach);
         const double inSea = fade(distances[j], 0.0, kSeaReach);
         const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));

@@ -19,7 +19,7 @@ namespace osgbindem {
 /// coarser rasters is interpolated from the rim and added to the coarser rasters (delta surface): full up to half of
 /// kReach posts from the rim, and fading out until kReach. Beyond the raster's border the difference counts as 0.
 /// Where the coarser rasters have sea the difference fades out within a few posts: the void is the sea, most likely.
-/// Nothing is filled where another raster that is nearly as fine has data.
+/// Where another raster that is nearly as fine has data, a rival, this is data here, too, before anything is filled.
 ///
 /// The raster is filled in blocks at fixed places, each from the posts within kReach of it, so a height depends on the
 /// rasters alone and not on what was asked before. Not for use by several threads.
@@ -53,16 +53,23 @@ public:
     };
 
     /// `coarser`: empty when there are no coarser rasters; then only narrow voids are filled.
-    VoidFill(Shape shape, Read read, Coarser coarser)
-        : _shape(std::move(shape)), _read(std::move(read)), _coarser(std::move(coarser)) {}
+    VoidFill(Shape shape, Read read, Coarser coarser, bool hasRivals)
+        : _shape(std::move(shape)), _read(std::move(read)), _coarser(std::move(coarser)), _hasRivals(hasRivals) {}
 
-    /// Requires: the raster has no data at the post. Returns: metres; NaN where it stays missing. Throws Failure.
-    [[nodiscard]] double at(int column, int row);
+    /// Requires: the raster has no data at the post. Returns: metres, NaN where it stays missing, and whether they are
+    /// a rival's. Throws Failure.
+    [[nodiscard]] Below at(int column, int row);
 
 private:
     struct Window;
+    /// Of each post of a block; empty ones have nothing to fill.
+    struct Block {
+        std::vector<float> heights;
+        std::vector<bool> isRival;
+    };
 
-    [[nodiscard]] std::vector<float> filled(const PixelWindow& block) const;
+    void takeRivals(Window& window) const;
+    [[nodiscard]] Block filled(const PixelWindow& block) const;
     void read(Window& window) const;
     void findOutside(Window& window) const;
     void interpolateNarrow(const Window& window, std::vector<float>& result) const;
@@ -76,8 +83,9 @@ private:
     Shape _shape;
     Read _read;
     Coarser _coarser;
-    /// By number of the block; an empty one has nothing to fill.
-    std::map<int, std::vector<float>> _blocks;
+    bool _hasRivals;
+    /// By number of the block.
+    std::map<int, Block> _blocks;
     std::size_t _held = 0;
 };
 
