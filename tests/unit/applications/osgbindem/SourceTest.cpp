@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <osg/Texture2D>
 
+#include <filesystem>
+
 namespace {
 
 double north(double latitudeDeg, double) {
@@ -231,6 +233,84 @@ TEST(Source, ProjectedRastersAreWarpedAndTheirPeaksKept) {
     // 450 km east, 5550 km north in the zone: 50.097 N, 8.301 E.
     EXPECT_GE(database.leafAt(50.0973, 8.3011).bin.bin().altitude().upper, 3000.0);
     checkSharedPosts(database);
+}
+
+namespace {
+
+/// A plain at 1500 m in degrees or in a map projection, with a square of another number in the middle.
+TestRaster plainWith(double number, bool isMap) {
+    const double scale = isMap ? 100.0 : 0.01;
+    const double x = isMap ? 600050.0 : 10.005;
+    const double y = isMap ? 5599950.0 : 49.995;
+    TestRaster raster(x, y, scale, scale, 100, 100, [=](double north, double east) {
+        const double away = std::max(std::abs(north - y + 50.0 * scale), std::abs(east - x - 50.0 * scale));
+        return away < 5.5 * scale ? number : 1500.0;
+    });
+    raster.setReference(isMap ? "EPSG:25832" : "EPSG:4326");
+    return raster;
+}
+
+/// Expects the plain without anything in it.
+void expectPlain(const TempFolder& folder, const std::string& path, bool isMap) {
+    build({path, "--overwrite", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const double latitudeDeg = isMap ? 50.4902 : 49.495;
+    const double longitudeDeg = isMap ? 10.4803 : 10.505;
+    for (int i = -8; i <= 8; ++i) {
+        const double step = isMap ? 0.001 : 0.01;
+        EXPECT_NEAR(database.altitudeAt(latitudeDeg + i * step, longitudeDeg), 1500.0, 0.2) << path << ' ' << i;
+        EXPECT_NEAR(database.altitudeAt(latitudeDeg, longitudeDeg + i * step), 1500.0, 0.2) << path << ' ' << i;
+    }
+}
+
+}  // namespace
+
+TEST(Source, VoidsByMasksAndByNumbersThatNoTerrainHas) {
+    const TempFolder folder;
+    GDALAllRegister();
+    const std::string path = folder.file("plain.tif");
+    for (const bool isMap : {false, true}) {
+        for (const double number : {1e6, -999999.0, -99999.0, -32768.0}) {
+            plainWith(number, isMap).write(path);
+            expectPlain(folder, path, isMap);
+        }
+        plainWith(0.0, isMap).write(path);
+        GDALDataset* dataset = GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+        std::vector<double> heights(10000);
+        ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 100, 100, heights.data(), 100, 100, GDT_Float64, 0,
+                                                      0, nullptr),
+                  CE_None);
+        for (double& height : heights) height = height > 0.0 ? 255.0 : 0.0;
+        dataset->CreateMaskBand(GMF_PER_DATASET);
+        ASSERT_EQ(dataset->GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Write, 0, 0, 100, 100, heights.data(), 100, 100,
+                                                                     GDT_Float64, 0, 0, nullptr),
+                  CE_None);
+        GDALClose(GDALDataset::ToHandle(dataset));
+        expectPlain(folder, path, isMap);
+        std::filesystem::remove(path + ".msk");
+    }
+}
+
+TEST(Source, UnitsThatBandsDeclare) {
+    const TempFolder folder;
+    GDALAllRegister();
+    const std::string path = folder.file("feet.tif");
+    for (const bool isMap : {false, true}) {
+        plainWith(1500.0, isMap).write(path);
+        const auto declare = [&](const char* unit) {
+            GDALDataset* dataset = GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+            dataset->GetRasterBand(1)->SetUnitType(unit);
+            GDALClose(GDALDataset::ToHandle(dataset));
+        };
+        declare("ft");
+        build({path, "--overwrite", "-o", folder.file("earth.osgb")});
+        EXPECT_NEAR(
+            loadDatabase(folder.file("earth.osgb")).altitudeAt(isMap ? 50.4902 : 49.495, isMap ? 10.4803 : 10.505),
+            457.2, 0.1);
+        declare("counts");
+        EXPECT_NE(run({path, "--overwrite", "-o", folder.file("earth.osgb")}).errors.find("give --height-unit"),
+                  std::string::npos);
+    }
 }
 
 TEST(Source, ImagesAreDrapedWithinTheTilesFile) {
