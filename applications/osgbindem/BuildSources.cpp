@@ -142,6 +142,8 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid) << '\n';
         if (isFile) describeFile(settings.geoid, out);
     }
+    if (settings.band) out << "band " << *settings.band << '\n';
+    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     describeElevations(settings, layout, out);
     describeImages(settings, out);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
 #include <utility>
 
 namespace osgbindem {
@@ -24,6 +26,31 @@ double postsPerThread(const Settings& settings) {
     return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 
+/// What is told of rasters, once where it is the same.
+class Notes {
+public:
+    void add(const std::string& path, const std::string& note) { _paths[note].push_back(path); }
+    [[nodiscard]] std::vector<std::string> lines() const {
+        std::vector<std::string> lines;
+        for (const auto& [note, paths] : _paths) {
+            const std::string others =
+                paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " others" : std::string();
+            lines.push_back("\"" + paths.front() + "\"" + others + ": " + note);
+        }
+        return lines;
+    }
+
+private:
+    std::map<std::string, std::vector<std::string>> _paths;
+};
+
+std::string markText(const RasterLook& look) {
+    std::ostringstream out;
+    out << ": " << (look.share < 1.0 ? "some " : "") << std::round(look.marks / look.share)
+        << " posts with numbers like " << look.lastMark << ", which no terrain has";
+    return out.str();
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings, const TileLayout* layout) {
@@ -35,6 +62,7 @@ std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settin
         options.isWgs84 = settings.isWgs84;
         if (settings.useOverviews && layout) options.spacingDeg = layout->spacingDeg(layout->deepestLevel());
         options.metresPerUnit = dem.metresPerUnit;
+        options.band = settings.band;
         rasters.push_back(std::move(options));
     }
     return RasterLayer::layersOf(rasters, layout ? std::optional(layout->cells()) : std::nullopt);
@@ -91,11 +119,6 @@ std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const 
     return std::nullopt;
 }
 
-double DemMosaic::height(const PositionDeg& position) {
-    const auto found = heightFrom(0, position);
-    return found ? found->metres : 0.0;
-}
-
 bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, HeightRange& range) {
     if (_shifts[source].isNone()) return _sources[source]->addRange(rect, range);
     HeightRange above;
@@ -144,14 +167,24 @@ void DemMosaic::prefetch(const RectDeg& rect) {
     for (const auto& source : _sources) left -= source->prefetch(rect, left);
 }
 
-void DemMosaic::requireData() {
-    for (const auto& source : _sources) {
-        for (const RasterLayer::Member& member : source->layer().members()) {
-            if (member.file->hasHeights(member.file->look())) continue;
-            throw Failure("no heights in \"" + member.file->path() +
-                          "\", only missing data; leave it out, or see --nodata");
+std::vector<std::string> DemMosaic::inspect() {
+    Notes notes;
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
+            const RasterFile& file = *member.file;
+            const RasterLook look = file.look();
+            if (!file.hasHeights(look)) {
+                throw Failure("no heights in \"" + file.path() + "\", only missing data" +
+                              (look.marks > 0.0 ? markText(look) : std::string()) +
+                              "; leave it out, or see --nodata, --height-unit and --radii");
+            }
+            for (const std::string& note : file.notes()) notes.add(file.path(), note);
+            if (!_shifts[i].isNone())
+                notes.add(file.path(), "heights above " + _shifts[i].what() + ", converted by PROJ");
+            if (look.marks > 0.0) notes.add(file.path(), "missing data" + markText(look));
         }
     }
+    return notes.lines();
 }
 
 double DemMosaic::finestDeg() const noexcept {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace osgbindem {
@@ -31,8 +32,22 @@ public:
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
-    /// Metres above the ellipsoid; the same number for the same position, whatever was read before.
-    [[nodiscard]] double height(const PositionDeg& position);
+    struct Found {
+        /// Above the ellipsoid.
+        double metres = 0.0;
+        /// No data, but what stands in a void.
+        bool isFilled = false;
+        std::size_t source = 0;
+    };
+
+    /// The same for the same position, whatever was read before. Returns: nullopt where no raster has data.
+    [[nodiscard]] std::optional<Found> find(const PositionDeg& position) { return heightFrom(0, position); }
+
+    /// Metres above the ellipsoid, 0 where no raster has data.
+    [[nodiscard]] double height(const PositionDeg& position) {
+        const auto found = find(position);
+        return found ? found->metres : 0.0;
+    }
 
     /// Heights of every post, of every raster used in the rectangle, that has part in it.
     [[nodiscard]] HeightRange range(const RectDeg& rect);
@@ -42,8 +57,9 @@ public:
 
     void prefetch(const RectDeg& rect);
 
-    /// Throws Failure when a raster is empty; reads, so it is done once and not in each thread.
-    void requireData();
+    /// Looks at each raster; reads, so it is done once and not in each thread. Returns: what the user should know of
+    /// them, in lines. Throws Failure when one is empty.
+    [[nodiscard]] std::vector<std::string> inspect();
 
     /// The finest distance between posts.
     [[nodiscard]] double finestDeg() const noexcept;
@@ -55,12 +71,6 @@ public:
     [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
 
 private:
-    struct Found {
-        double metres = 0.0;
-        bool isFilled = false;
-        std::size_t source = 0;
-    };
-
     /// Of the layers from this one on, finest first; nullopt where none of them has data.
     [[nodiscard]] std::optional<Found> heightFrom(std::size_t source, const PositionDeg& position);
 

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <dlfcn.h>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -60,8 +62,15 @@ void requireAllRows(GDALDataset& dataset, const std::string& path) {
     }
 }
 
+/// Has HDF5, which GDAL loads, keep what it prints of each error; in each thread by itself.
+void silenceHdf5() {
+    using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
+    if (void* setAuto = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(setAuto)(0, nullptr, nullptr);
+}
+
 /// `overview`: its number, or -1 for the raster itself.
 GdalDataset opened(const std::string& path, int overview = -1) {
+    silenceHdf5();
     CPLStringList words;
     if (overview >= 0) words.SetNameValue("OVERVIEW_LEVEL", std::to_string(overview).c_str());
     GdalDataset dataset(
@@ -187,21 +196,54 @@ GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& band) {
     return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0 ? nullptr : band.GetMaskBand();
 }
 
-GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference* horizontal) {
-    GDALRasterBand& band = *file.GetRasterBand(1);
+/// The band with the heights; `notes` get a word when it is one of several.
+GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, std::vector<std::string>& notes) {
+    const int count = file.GetRasterCount();
+    const int number = options.band.value_or(1);
+    if (number > count) {
+        throw Failure("no band " + std::to_string(number) + " in \"" + options.path + "\", which has " +
+                      std::to_string(count) + "; see --band");
+    }
+    GDALRasterBand& band = *file.GetRasterBand(number);
+    int others = 0;
+    for (int i = 1; i <= count; ++i) {
+        if (i != number && file.GetRasterBand(i)->GetColorInterpretation() != GCI_AlphaBand) ++others;
+    }
+    if (others > 0 && !options.band) {
+        const std::string name = band.GetDescription();
+        notes.push_back("band " + std::to_string(number) + " of " + std::to_string(count) +
+                        (name.empty() ? name : ", \"" + name + "\",") + " has the heights; see --band");
+    }
+    return band;
+}
+
+GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference* horizontal,
+                      std::vector<std::string>& notes) {
+    GDALRasterBand& band = heightBandOf(file, options, notes);
     HeightCode code;
     int hasNodata = 0;
     const double nodata = band.GetNoDataValue(&hasNodata);
     if (hasNodata != 0) code.nodata = nodata;
     if (options.nodata) code.nodata = options.nodata;
-    const auto declared = declaredMetresPerUnit(band, referenceOf(file));
+    const OGRSpatialReference* reference = referenceOf(file);
+    const auto declared = declaredMetresPerUnit(band, reference);
     if (!declared && !options.metresPerUnit) {
         throw Failure("heights of \"" + options.path + "\" are in \"" + band.GetUnitType() +
                       "\", which is no length that is known; give --height-unit");
     }
     const double metres = options.metresPerUnit.value_or(declared.value_or(1.0));
+    if (!options.metresPerUnit && metres != 1.0) {
+        notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
+    }
     code.scale = band.GetScale() * metres;
     code.offset = band.GetOffset() * metres;
+    const double radius = reference != nullptr ? reference->GetSemiMajor() : wgs84().GetSemiMajor();
+    if (code.offset > 0.5 * radius) {
+        throw Failure("heights of \"" + options.path +
+                      "\" are distances from the middle of the body, with an offset of " +
+                      std::string(CPLSPrintf("%.9g", code.offset)) +
+                      " m; take it away with gdal_edit.py -offset 0, and see --radii");
+    }
     // A user's factor may exaggerate heights.
     const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
     code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
@@ -209,16 +251,67 @@ GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGR
     return GdalDataset(new HeightDataset(band, code, horizontal));
 }
 
+/// Numbers of the bands in the order red, green, blue, alpha, or grey, alpha.
+std::vector<int> colourBands(GDALDataset& file) {
+    const int count = file.GetRasterCount();
+    const auto bandOf = [&](GDALColorInterp colour) {
+        for (int i = 1; i <= count; ++i)
+            if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
+        return 0;
+    };
+    std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    const int alpha = bandOf(GCI_AlphaBand);
+    if (std::count(bands.begin(), bands.end(), 0) > 0) {
+        const int colours = alpha == 0 ? count : alpha - 1;
+        bands = colours >= 3 ? std::vector{1, 2, 3} : std::vector{std::max(1, bandOf(GCI_GrayIndex))};
+    }
+    if (alpha != 0) bands.push_back(alpha);
+    return bands;
+}
+
+/// The number that is shown at full brightness: the end of the usual range that holds the highest one.
+double brightest(GDALDataset& file, const std::vector<int>& bands, const std::string& path) {
+    double highest = 0.0;
+    for (const int number : bands) {
+        std::array<double, 2> range{};
+        GDALRasterBand& band = *file.GetRasterBand(number);
+        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) highest = std::max(highest, range[1]);
+    }
+    const bool isWhole = GDALDataTypeIsInteger(file.GetRasterBand(bands.front())->GetRasterDataType()) != 0;
+    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
+        if (highest <= end && (end > 1.0 || !isWhole)) return end;
+    }
+    throw Failure("colours of \"" + path + "\" reach " + std::string(CPLSPrintf("%.9g", highest)) +
+                  "; bring them to bytes, for example with gdal_translate -ot Byte -scale");
+}
+
 /// Colours as bytes; an empty pointer where the file has them so.
 GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
-    if (file.GetRasterBand(1)->GetColorTable() == nullptr) return nullptr;
-    CPLStringList words(CSLTokenizeString("-of VRT -expand rgba"));
+    CPLStringList words(CSLTokenizeString("-of VRT -ot Byte"));
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
+        words.AddString("-expand");
+        words.AddString("rgba");
+    } else {
+        const std::vector<int> bands = colourBands(file);
+        bool isThere = bands.size() >= static_cast<std::size_t>(std::min(file.GetRasterCount(), 4));
+        for (std::size_t i = 0; i < bands.size(); ++i) {
+            isThere = isThere && bands[i] == static_cast<int>(i) + 1 &&
+                      file.GetRasterBand(bands[i])->GetRasterDataType() == GDT_Byte;
+            words.AddString("-b");
+            words.AddString(std::to_string(bands[i]).c_str());
+        }
+        if (isThere) return nullptr;
+        if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
+            for (const char* word : {"-scale", "0", CPLSPrintf("%.17g", brightest(file, bands, path)), "0", "255"})
+                words.AddString(word);
+        }
+    }
     GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
     int usageError = 0;
-    GDALDatasetH expanded = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
+    GDALDatasetH translated = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
     GDALTranslateOptionsFree(options);
-    if (expanded == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
-    return GdalDataset(GDALDataset::FromHandle(expanded));
+    if (translated == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
+    return GdalDataset(GDALDataset::FromHandle(translated));
 }
 
 /// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
@@ -287,7 +380,8 @@ void RasterFile::open(const RasterOptions& options, int overview) {
     if (!_horizontal.empty()) horizontal.importFromWkt(_horizontal.c_str());
     horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (options.isElevation) {
-        _decoded = heightsOf(*_file, options, &horizontal);
+        _notes.clear();
+        _decoded = heightsOf(*_file, options, &horizontal, _notes);
     } else {
         _decoded = coloursOf(*_file, _path);
     }
@@ -309,9 +403,8 @@ void RasterFile::takeReference(const RasterOptions& options) {
         globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
         _target = globe;
     } else if (!isOfEarth(*reference)) {
-        throw Failure("\"" + _path + "\" is of another body than the first raster, with radii of " +
-                      std::to_string(reference->GetSemiMajor()) + " and " + std::to_string(reference->GetSemiMinor()) +
-                      " m; give one body's rasters, see --radii");
+        throw Failure("\"" + _path + "\" is of another body than the globe; give rasters of one body, or --radii " +
+                      CPLSPrintf("%.9g %.9g", reference->GetSemiMajor(), reference->GetSemiMinor()));
     }
 }
 
@@ -349,8 +442,9 @@ void RasterFile::place() {
     _hasTransform = dataset().GetGeoTransform(_transform.data()) == CE_None;
     _isPlain = isInDegreesOfGlobe();
     if (_isPlain) {
-        const RasterGrid grid(_transform, _file->GetRasterXSize(), _file->GetRasterYSize());
-        _extent = grid.extent();
+        const double east = _transform[0] + _file->GetRasterXSize() * _transform[1];
+        const double other = _transform[3] + _file->GetRasterYSize() * _transform[5];
+        _extent = {_transform[0], std::min(_transform[3], other), east, std::max(_transform[3], other)};
         _eastDeg = _transform[1];
         _northDeg = std::abs(_transform[5]);
     } else {
@@ -361,8 +455,8 @@ void RasterFile::place() {
         throw Failure("the pixels of \"" + _path + "\" have no size on a globe; correct its georeferencing");
     }
     constexpr double kMostTurns = 2.0;
-    if (_extent.east - _extent.west > kMostTurns * 360.0) {
-        throw Failure("\"" + _path + "\" is wider than two turns of a globe; correct its georeferencing");
+    if (_extent.east - _extent.west > kMostTurns * 360.0 || _eastDeg > 360.0 || _northDeg > 180.0) {
+        throw Failure("\"" + _path + "\" or one of its pixels is larger than a globe; correct its georeferencing");
     }
     if (!(_extent.south < 90.0 && _extent.north > -90.0)) {
         throw Failure("no part of \"" + _path + "\" lies between latitudes -90 and 90; correct its georeferencing");

@@ -43,6 +43,8 @@ struct RasterOptions {
     double spacingDeg = 0.0;
     /// As the user says; without it, by what the raster declares.
     std::optional<double> metresPerUnit;
+    /// The band with heights, or a single one of an image; without it, the first with heights, or all colours.
+    std::optional<int> band;
 };
 
 /// Pixels and lines of a raster, and the longitudes and latitudes of the globe. Not for use by several threads.
@@ -113,6 +115,9 @@ public:
     /// Longitude and latitude in degrees on the globe.
     [[nodiscard]] const OGRSpatialReference& target() const noexcept { return _target; }
 
+    /// What the user should know: units that are no metres, the band of several.
+    [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return _notes; }
+
     /// Requires: elevation. Throws Failure.
     [[nodiscard]] RasterLook look() const;
     /// Reads all of the raster only where the look has found nothing.
@@ -139,6 +144,7 @@ private:
     std::string _horizontal;
     std::string _vertical;
     OGRSpatialReference _target;
+    std::vector<std::string> _notes;
 };
 
 /// The radii of the ellipsoid that a raster declares, where it is not the earth's. Throws Failure.

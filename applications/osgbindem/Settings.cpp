@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -111,6 +112,7 @@ void takeRadii(Arguments& arguments) {
                              " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
         }
     }
+    arguments.settings.areRadiiGiven = !arguments.radii.empty();
     arguments.settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
     arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
 }
@@ -156,6 +158,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "unit in the raster, else m); "
                    "--scale is its older name")
         ->delimiter(',');
+    app.add_option("-b,--band", settings.band, "band of the elevation rasters with the heights (default: the first)")
+        ->check(CLI::Range(1, 65535));
     app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");
     app.add_option(
            "--te", arguments.region,
@@ -177,7 +181,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "image that GDAL reads, draped over the terrain; may be given several times: the finest\nthat has a "
                    "pixel counts, and the colours of the relief where none has")
         ->allow_extra_args(false);
-    app.add_option("--radii", arguments.radii, "equatorial and polar radius in metres (default: WGS 84)")->expected(2);
+    app.add_option("--radii", arguments.radii,
+                   "equatorial and polar radius in metres\n(default: those of the first raster where it is of another "
+                   "body than the earth, else WGS 84)")
+        ->expected(2);
     app.add_option("--cells", settings.cells, "cells along the edge of a tile, even\n(default: from the rasters)")
         ->check(CLI::Range(4, 240))
         ->check(evenness);
@@ -207,7 +214,13 @@ void declare(CLI::App& app, Arguments& arguments) {
            "or left out since; all have to be named")
         ->excludes(restart)
         ->excludes(overwrite);
-    app.add_flag("--quiet", settings.quiet, "show no progress");
+    app.add_flag("-q,--quiet", settings.quiet, "show no progress, summary or warnings");
+    app.add_option("--config", settings.config,
+                   "an option of GDAL's configuration: KEY VALUE; may be given several times")
+        ->type_size(2)
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -228,6 +241,18 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     takeRegion(arguments);
     requireFiles(arguments.settings);
     return arguments.settings;
+}
+
+void takeDeclaredRadii(Settings& settings) {
+    if (settings.areRadiiGiven) return;
+    const auto radii = foreignRadiiOf(settings.dems.front().path);
+    if (!radii) return;
+    settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(radii->equatorial, radii->polar);
+    settings.isWgs84 = false;
+    if (!settings.quiet) {
+        std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", " << radii->equatorial
+                  << " and " << radii->polar << " m; see --radii" << std::endl;
+    }
 }
 
 }  // namespace osgbindem

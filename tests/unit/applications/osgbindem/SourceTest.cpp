@@ -313,6 +313,51 @@ TEST(Source, UnitsThatBandsDeclare) {
     }
 }
 
+TEST(Source, OtherBodiesHaveTheRadiiThatTheirRastersDeclare) {
+    const TempFolder folder;
+    TestRaster moon = TestRaster::globe(5.0, [](double, double) { return 1000.0; });
+    moon.setReference("+proj=longlat +R=1737400 +no_defs");
+    moon.write(folder.file("moon.tif"));
+    TestRaster map(-5457450.0, 2728650.0, 151600.0, 151600.0, 72, 36, [](double, double) { return 1000.0; });
+    map.setReference("+proj=eqc +R=1737400 +no_defs");
+    map.write(folder.file("map.tif"));
+    for (const char* name : {"moon.tif", "map.tif"}) {
+        build({folder.file(name), "--levels", "0", "--overwrite", "-o", folder.file("moon.osgb")});
+        const LoadedDatabase database = loadDatabase(folder.file("moon.osgb"));
+        EXPECT_EQ(database.ellipsoid().equatorialRadius(), 1737400.0);
+        EXPECT_EQ(database.ellipsoid().polarRadius(), 1737400.0);
+        EXPECT_NEAR(database.altitudeAt(22.5, 22.5), 1000.0, 0.3) << name;
+    }
+}
+
+TEST(Source, TheBandThatIsNamedCounts) {
+    const TempFolder folder;
+    GDALAllRegister();
+    GDALDataset* dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(folder.file("two.tif").c_str(), 72,
+                                                                                    36, 2, GDT_Float32, nullptr);
+    double transform[6] = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
+    dataset->SetGeoTransform(transform);
+    dataset->GetRasterBand(1)->Fill(100.0);
+    dataset->GetRasterBand(2)->Fill(700.0);
+    GDALClose(GDALDataset::ToHandle(dataset));
+    build({folder.file("two.tif"), "-b", "2", "--levels", "0", "-o", folder.file("earth.osgb")});
+    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 700.0, 0.3);
+    const Outcome outcome =
+        run({folder.file("two.tif"), "--levels", "0", "--overwrite", "-o", folder.file("earth.osgb")});
+    EXPECT_NE(outcome.output.find("band 1 of 2"), std::string::npos) << outcome.output;
+    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 100.0, 0.3);
+}
+
+TEST(Source, RastersOfCentimetresAreDeepAndSmall) {
+    const TempFolder folder;
+    TestRaster(1.0, 2.0, 4.5e-7, 4.5e-7, 20, 20, [](double, double) { return 500.0; }).write(folder.file("fine.tif"));
+    build({folder.file("fine.tif"), "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    EXPECT_EQ(database.deepestLevel(), 20);
+    EXPECT_NEAR(database.altitudeAt(2.0 - 4e-6, 1.0 + 4e-6), 500.0, 0.1);
+    checkSharedPosts(database);
+}
+
 TEST(Source, ImagesAreDrapedWithinTheTilesFile) {
     const TempFolder folder;
     GDALAllRegister();
