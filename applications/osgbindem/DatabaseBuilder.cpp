@@ -158,10 +158,11 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
     board.rethrow();
 }
 
-void buildWith(const Settings& settings, const Ranks& ranks) {
+void buildWith(const Settings& given, const Ranks& ranks) {
     const auto start = std::chrono::steady_clock::now();
     Meetings meetings(ranks, throwIfStopRequested);
     prepareNodeFiles();
+    const Settings settings = withDeclaredRadii(given);
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
@@ -200,10 +201,11 @@ void buildWith(const Settings& settings, const Ranks& ranks) {
 }
 
 /// Every rank but the first.
-void helpFirstRank(const Settings& settings, const Ranks& ranks) {
+void helpFirstRank(const Settings& given, const Ranks& ranks) {
     Meetings meetings(ranks, Ranks::leaveAfterSignal);
     try {
         prepareNodeFiles();
+        const Settings settings = withDeclaredRadii(given);
         const TileLayout layout = layoutFor(settings, DemMosaic(settings));
         const std::vector<Task> plan = planTasks(settings, layout);
         meetings.hold();

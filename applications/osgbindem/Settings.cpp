@@ -243,16 +243,17 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     return arguments.settings;
 }
 
-void takeDeclaredRadii(Settings& settings) {
-    if (settings.areRadiiGiven) return;
+Settings withDeclaredRadii(Settings settings) {
+    if (settings.areRadiiGiven) return settings;
     const auto radii = foreignRadiiOf(settings.dems.front().path);
-    if (!radii) return;
+    if (!radii) return settings;
     settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(radii->equatorial, radii->polar);
     settings.isWgs84 = false;
     if (!settings.quiet) {
         std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", " << radii->equatorial
                   << " and " << radii->polar << " m; see --radii" << std::endl;
     }
+    return settings;
 }
 
 }  // namespace osgbindem

@@ -69,8 +69,8 @@ struct Settings {
 /// Returns: nullopt after help or version was printed. Throws Failure.
 [[nodiscard]] std::optional<Settings> settingsFrom(int argc, const char* const* argv);
 
-/// Takes the radii of the first raster where that is of another body than the earth and none are given.
+/// The same with the radii of the first raster where that is of another body than the earth and none are given.
 /// Throws Failure.
-void takeDeclaredRadii(Settings& settings);
+[[nodiscard]] Settings withDeclaredRadii(Settings settings);
 
 }  // namespace osgbindem

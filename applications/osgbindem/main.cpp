@@ -52,7 +52,6 @@ ExitCode run(int argc, char** argv) {
     }
     if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(ranks);
     prepareProcess(*settings);
-    osgbindem::takeDeclaredRadii(*settings);
     if (settings->update) {
         osgbindem::updateDatabase(*settings);
     } else {
