@@ -47,7 +47,8 @@ private:
 std::string markText(const RasterLook& look) {
     std::ostringstream out;
     out << ": " << (look.share < 1.0 ? "some " : "") << std::round(look.marks / look.share)
-        << " posts with numbers like " << look.lastMark << ", which no terrain has";
+        << " posts with numbers like " << look.lastMark
+        << ", which no terrain has (where they are heights, see --height-unit)";
     return out.str();
 }
 

@@ -35,7 +35,7 @@ constexpr double kHighestOnEarth = 12000.0;
 constexpr double kHighest = 1e5;
 
 const OGRSpatialReference& wgs84() {
-    static const OGRSpatialReference reference = [] {
+    static thread_local const OGRSpatialReference reference = [] {
         OGRSpatialReference r;
         r.importFromEPSG(4326);
         r.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
