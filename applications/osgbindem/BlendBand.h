@@ -24,6 +24,8 @@ public:
     BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all, const std::optional<double>& width,
               double radius);
 
+    [[nodiscard]] bool isEmpty() const noexcept { return _edges.empty(); }
+
     /// The raster's share of the height, from 0 at the border to 1 at the end of the band.
     [[nodiscard]] double share(const PositionDeg& position) const noexcept {
         return _edges.empty() ? 1.0 : shareWithin(position);

@@ -4,7 +4,7 @@
 #include "BuildSources.h"
 
 #include "BlendBand.h"
-#include "GdalRaster.h"
+#include "DemMosaic.h"
 #include "ImageMosaic.h"
 #include "VoidFill.h"
 
@@ -35,7 +35,7 @@ constexpr const char* kArea = "  area ";
 constexpr const char* kReach = "  reach ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
@@ -69,49 +69,55 @@ double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayou
     return VoidFill::kMostReach * spacing;
 }
 
-GdalRaster rasterOf(const Settings& settings, const DemInput& dem) {
-    RasterOptions options;
-    options.path = dem.path;
-    options.nodata = settings.nodata;
-    options.isWgs84 = settings.isWgs84;
-    return GdalRaster(options);
-}
-
-void describeGrid(const RasterGrid& grid, const std::vector<RasterGrid>& all, const Settings& settings,
-                  std::ostream& out) {
+void describeMember(const RasterLayer::Member& member, const std::vector<RasterGrid>& all, const Settings& settings,
+                    std::ostream& out) {
     // Where heights or colours may depend on the raster.
-    const RectDeg area = grid.extent().grownBy(grid.resolutionDeg());
+    const RectDeg area = member.grid.extent().grownBy(member.grid.resolutionDeg());
     out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
     out << "  blended over ";
-    BlendBand(grid, all, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
+    BlendBand(member.grid, all, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
     out << '\n';
 }
 
-void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
-    std::vector<GdalRaster> rasters;
-    std::vector<RasterGrid> grids;
-    for (const DemInput& dem : settings.dems) {
-        rasters.push_back(rasterOf(settings, dem));
-        grids.push_back(rasters.back().grid());
+/// The rasters of all layers, in the order of the command line.
+std::vector<const RasterLayer::Member*> membersOf(const std::vector<std::unique_ptr<RasterLayer>>& layers) {
+    std::vector<const RasterLayer::Member*> members;
+    for (const auto& layer : layers) {
+        for (const RasterLayer::Member& member : layer->members()) members.push_back(&member);
     }
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        const GdalRaster& raster = rasters[i];
-        out << kElevation << wholePath(settings.dems[i].path) << ", scale " << settings.dems[i].metresPerUnit << '\n';
-        describeGrid(grids[i], grids, settings, out);
-        out << kReach << grids[i].resolutionDeg() << ' ' << reachOf(grids[i], settings, layout) << '\n';
-        describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+    std::sort(members.begin(), members.end(), [](const auto* a, const auto* b) { return a->number < b->number; });
+    return members;
+}
+
+std::vector<RasterGrid> gridsOf(const std::vector<const RasterLayer::Member*>& members) {
+    std::vector<RasterGrid> grids;
+    for (const RasterLayer::Member* member : members) grids.push_back(member->grid);
+    return grids;
+}
+
+void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
+    const auto layers = elevationLayers(settings, &layout);
+    const auto members = membersOf(layers);
+    const std::vector<RasterGrid> grids = gridsOf(members);
+    for (const RasterLayer::Member* member : members) {
+        const DemInput& dem = settings.dems[member->number];
+        out << kElevation << wholePath(dem.path);
+        if (dem.metresPerUnit) out << ", scale " << *dem.metresPerUnit;
+        out << '\n';
+        describeMember(*member, grids, settings, out);
+        out << kReach << member->grid.resolutionDeg() << ' ' << reachOf(member->grid, settings, layout) << '\n';
+        describeFiles(member->file->file(), out);
     }
 }
 
 void describeImages(const Settings& settings, std::ostream& out) {
-    std::vector<RasterGrid> grids;
-    for (const std::string& path : settings.images) grids.push_back(ImageSource(path, settings.isWgs84).grid());
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        const std::string& path = settings.images[i];
-        out << kImage << wholePath(path) << '\n';
-        describeGrid(grids[i], grids, settings, out);
-        const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-        if (dataset) describeFiles(*dataset, out);
+    const auto layers = RasterLayer::layersOf(imageOptions(settings));
+    const auto members = membersOf(layers);
+    const std::vector<RasterGrid> grids = gridsOf(members);
+    for (const RasterLayer::Member* member : members) {
+        out << kImage << wholePath(settings.images[member->number]) << '\n';
+        describeMember(*member, grids, settings, out);
+        describeFiles(member->file->file(), out);
     }
 }
 
@@ -136,6 +142,8 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid) << '\n';
         if (isFile) describeFile(settings.geoid, out);
     }
+    if (settings.band) out << "band " << *settings.band << '\n';
+    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     describeElevations(settings, layout, out);
     describeImages(settings, out);
@@ -220,11 +228,14 @@ std::vector<Raster> without(const std::vector<Raster>& rasters, const std::vecto
     return result;
 }
 
+// Rasters of one layer have spacings that differ by less.
+constexpr double kAlike = 1.1;
+
 /// Where heights may change when the raster does: where it lies, and in the voids of finer ones that are `kept`.
 RectDeg changedBy(const Raster& raster, const std::vector<Raster>& kept) {
     double reach = 0.0;
     for (const Raster& other : kept) {
-        if (other.resolutionDeg <= raster.resolutionDeg) reach += other.reachDeg;
+        if (other.resolutionDeg <= kAlike * raster.resolutionDeg) reach += other.reachDeg;
     }
     return raster.area.grownBy(reach);
 }

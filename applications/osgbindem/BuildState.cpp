@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // What is in a record, and in which order: another one for each change.
-constexpr std::uint64_t kRecordFormat = 0x6F73676254736B32U;
+constexpr std::uint64_t kRecordFormat = 0x6F73676254736B33U;
 
 /// One description of the bytes for both directions.
 template <class Stream, class Record, class Numbers>
@@ -37,6 +37,7 @@ void passRecord(Stream& s, Record& record, Numbers& heights) {
     s.number(record.files.checksum);
     s.number(record.tile.range.lower);
     s.number(record.tile.range.upper);
+    Tally::pass(s, record.tile.tally);
     s.bin(record.tile.below);
     s.numbers(heights);
     for (auto& edge : record.tile.skirt) {
@@ -61,7 +62,7 @@ std::string bytesOf(const TaskRecord& record) {
 std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile, const TileLayout& layout) {
     const std::string head = headOf(tile);
     if (bytes.substr(0, head.size()) != head) return std::nullopt;
-    TaskRecord record{{HeightGrid(tile, layout), {}, {}, {}}, {}};
+    TaskRecord record{{HeightGrid(tile, layout), {}, {}, {}, {}}, {}};
     std::vector<double> heights;
     try {
         RecordReader in(bytes.substr(head.size()));

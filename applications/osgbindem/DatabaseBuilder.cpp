@@ -12,6 +12,7 @@
 #include "TaskWork.h"
 #include "TileBuilder.h"
 
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -157,9 +158,11 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
     board.rethrow();
 }
 
-void buildWith(const Settings& settings, const Ranks& ranks) {
+void buildWith(const Settings& given, const Ranks& ranks) {
+    const auto start = std::chrono::steady_clock::now();
     Meetings meetings(ranks, throwIfStopRequested);
     prepareNodeFiles();
+    const Settings settings = withDeclaredRadii(given);
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
@@ -179,8 +182,16 @@ void buildWith(const Settings& settings, const Ranks& ranks) {
         Progress progress(!settings.quiet, weightOf(partsOf(ranks, plan)));
         StartTiles starts(settings, layout);
         buildParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings, &starts);
-        folder.complete(starts.rootBytes(), sources);
+        const std::string root = starts.rootBytes();
+        folder.complete(root, sources);
         progress.finish();
+        if (settings.quiet) return;
+        Tally tally = starts.tally();
+        ++tally.files;
+        tally.bytes += static_cast<double>(root.size());
+        const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+        std::cout << tally.text(settings.output, layout.startLevel(), time.count()) << std::endl;
+        if (!tally.warning().empty()) std::cerr << tally.warning() << std::endl;
     } catch (const Interrupted&) {
         throw Interrupted(interruption(folder, state, plan.size()));
     } catch (const Failure& failure) {
@@ -190,10 +201,11 @@ void buildWith(const Settings& settings, const Ranks& ranks) {
 }
 
 /// Every rank but the first.
-void helpFirstRank(const Settings& settings, const Ranks& ranks) {
+void helpFirstRank(const Settings& given, const Ranks& ranks) {
     Meetings meetings(ranks, Ranks::leaveAfterSignal);
     try {
         prepareNodeFiles();
+        const Settings settings = withDeclaredRadii(given);
         const TileLayout layout = layoutFor(settings, DemMosaic(settings));
         const std::vector<Task> plan = planTasks(settings, layout);
         meetings.hold();

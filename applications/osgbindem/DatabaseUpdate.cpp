@@ -248,8 +248,9 @@ ChangedArea requireUpdatable(const DatabaseFolder& folder, const std::string& so
 
 }  // namespace
 
-void updateDatabase(const Settings& settings) {
+void updateDatabase(const Settings& given) {
     prepareNodeFiles();
+    const Settings settings = withDeclaredRadii(given);
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();

@@ -4,10 +4,12 @@
 #include "DemMosaic.h"
 
 #include "Failure.h"
-#include "TileLayout.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
+#include <utility>
 
 namespace osgbindem {
 
@@ -15,57 +17,107 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
+// So many times coarser at most, a raster knows more of a void than the posts around it.
+constexpr double kRival = 1.5;
+
 // Half of the memory is GDAL's cache, the other half the windows that the threads keep.
 double postsPerThread(const Settings& settings) {
     const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
     return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 
+/// What is told of rasters, once where it is the same.
+class Notes {
+public:
+    void add(const std::string& path, const std::string& note) { _paths[note].push_back(path); }
+    [[nodiscard]] std::vector<std::string> lines() const {
+        std::vector<std::string> lines;
+        for (const auto& [note, paths] : _paths) {
+            const std::string others =
+                paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " others" : std::string();
+            lines.push_back("\"" + paths.front() + "\"" + others + ": " + note);
+        }
+        return lines;
+    }
+
+private:
+    std::map<std::string, std::vector<std::string>> _paths;
+};
+
+std::string markText(const RasterLook& look) {
+    std::ostringstream out;
+    out << ": " << (look.share < 1.0 ? "some " : "") << std::round(look.marks / look.share)
+        << " posts with numbers like " << look.lastMark
+        << ", which no terrain has (where they are heights, see --height-unit)";
+    return out.str();
+}
+
 }  // namespace
 
-DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(postsPerThread(settings)) {
+std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings, const TileLayout* layout) {
+    std::vector<RasterOptions> rasters;
     for (const DemInput& dem : settings.dems) {
-        DemOptions options;
-        options.raster.path = dem.path;
-        options.raster.nodata = settings.nodata;
-        options.raster.isWgs84 = settings.isWgs84;
-        options.raster.spacingDeg = settings.useOverviews ? spacingDeg : 0.0;
+        RasterOptions options;
+        options.path = dem.path;
+        options.nodata = settings.nodata;
+        options.isWgs84 = settings.isWgs84;
+        if (settings.useOverviews && layout) options.spacingDeg = layout->spacingDeg(layout->deepestLevel());
         options.metresPerUnit = dem.metresPerUnit;
-        _sources.push_back(std::make_unique<DemSource>(options));
+        options.band = settings.band;
+        rasters.push_back(std::move(options));
     }
-    std::stable_sort(_sources.begin(), _sources.end(), [](const auto& a, const auto& b) {
-        return a->grid().resolutionDeg() < b->grid().resolutionDeg();
-    });
-    for (const auto& source : _sources) _shifts.emplace_back(source->raster(), settings.geoid);
-    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
-        _sources[i]->setCoarser([this, i](const PositionDeg& position) {
-            auto height = heightFrom(i + 1, position);
-            if (height) *height -= _shifts[i].at(position);
-            return height;
-        });
-    }
+    return RasterLayer::layersOf(rasters, layout ? std::optional(layout->cells()) : std::nullopt);
+}
+
+DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _mostPosts(postsPerThread(settings)) {
     std::vector<RasterGrid> grids;
-    for (const auto& source : _sources) grids.push_back(source->grid());
-    for (const RasterGrid& grid : grids) {
-        _bands.emplace_back(grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+    for (auto& layer : elevationLayers(settings, layout)) {
+        for (const RasterLayer::Member& member : layer->members()) grids.push_back(member.grid);
+        _shifts.emplace_back(layer->vertical(), settings.geoid, layer->path());
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer)));
+    }
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        if (i + 1 < _sources.size()) {
+            const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
+            _sources[i]->setCoarser([this, i](const PositionDeg& position) { return below(i, position); }, hasRivals);
+        }
+        _bands.emplace_back();
+        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
+            BlendBand band(member.grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+            if (!band.isEmpty()) _bands.back().push_back(std::move(band));
+        }
     }
 }
 
-std::optional<double> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
+VoidFill::Below DemMosaic::below(std::size_t source, const PositionDeg& position) {
+    const auto found = heightFrom(source + 1, position);
+    if (!found) return {};
+    const double rivalDeg = kRival * _sources[source]->layer().spacingDeg();
+    return {found->metres - _shifts[source].at(position),
+            !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg};
+}
+
+double DemMosaic::share(std::size_t source, const PositionDeg& position) const noexcept {
+    double share = 1.0;
+    for (const BlendBand& band : _bands[source]) {
+        if (share > 0.0) share = std::min(share, band.share(position));
+    }
+    return share;
+}
+
+std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
-        auto height = _sources[i]->height(position);
+        const auto height = _sources[i]->height(position);
         if (!height) continue;
-        if (!_shifts[i].isNone()) *height += _shifts[i].at(position);
-        const double share = _bands[i].share(position);
-        if (share == 1.0) return height;
+        Found found{height->metres, height->isFilled, i};
+        if (!_shifts[i].isNone()) found.metres += _shifts[i].at(position);
+        const double own = share(i, position);
+        if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);
-        return coarser ? *coarser + share * (*height - *coarser) : height;
+        if (coarser) found.metres = coarser->metres + own * (found.metres - coarser->metres);
+        return found;
     }
     return std::nullopt;
-}
-
-double DemMosaic::height(const PositionDeg& position) {
-    return heightFrom(0, position).value_or(0.0);
 }
 
 bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, HeightRange& range) {
@@ -96,7 +148,9 @@ HeightRange DemMosaic::range(const RectDeg& rect) {
     bool isCovered = false;
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         const bool isComplete = addRange(i, rect, range);
-        if (isComplete && !_bands[i].touches(rect)) return range;
+        const bool isBlended =
+            std::any_of(_bands[i].begin(), _bands[i].end(), [&](const BlendBand& band) { return band.touches(rect); });
+        if (isComplete && !isBlended) return range;
         isCovered = isCovered || isComplete;
     }
     if (!isCovered) range.include(0.0);
@@ -114,16 +168,28 @@ void DemMosaic::prefetch(const RectDeg& rect) {
     for (const auto& source : _sources) left -= source->prefetch(rect, left);
 }
 
-void DemMosaic::requireData() {
-    for (const auto& source : _sources) {
-        if (!source->hasAnyData()) {
-            throw Failure("no heights in \"" + source->path() + "\", only missing data; leave it out, or see --nodata");
+std::vector<std::string> DemMosaic::inspect() {
+    Notes notes;
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
+            const RasterFile& file = *member.file;
+            const RasterLook look = file.look();
+            if (!file.hasHeights(look)) {
+                throw Failure("no heights in \"" + file.path() + "\", only missing data" +
+                              (look.marks > 0.0 ? markText(look) : std::string()) +
+                              "; leave it out, or see --nodata, --height-unit and --radii");
+            }
+            for (const std::string& note : file.notes()) notes.add(file.path(), note);
+            if (!_shifts[i].isNone())
+                notes.add(file.path(), "heights above " + _shifts[i].what() + ", converted by PROJ");
+            if (look.marks > 0.0) notes.add(file.path(), "missing data" + markText(look));
         }
     }
+    return notes.lines();
 }
 
 double DemMosaic::finestDeg() const noexcept {
-    return _sources.front()->grid().resolutionDeg();
+    return _sources.front()->layer().spacingDeg();
 }
 
 double DemMosaic::finestGlobalDeg() const noexcept {
@@ -136,8 +202,10 @@ double DemMosaic::finestGlobalDeg() const noexcept {
 double DemMosaic::posts(const RectDeg& rect) const noexcept {
     double sum = 0.0;
     for (const auto& source : _sources) {
-        const double resolution = source->grid().resolutionDeg();
-        sum += source->grid().overlap(rect) / resolution / resolution;  // whose square may be too small for a number
+        for (const RasterLayer::Member& member : source->layer().members()) {
+            const double resolution = member.grid.resolutionDeg();
+            sum += member.grid.overlap(rect) / resolution / resolution;  // whose square may be too small for a number
+        }
     }
     return sum;
 }

@@ -6,27 +6,48 @@
 #include "BlendBand.h"
 #include "DemSource.h"
 #include "Settings.h"
+#include "TileLayout.h"
 #include "VerticalShift.h"
 
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace osgbindem {
 
-/// All elevation rasters as one: at each position the finest raster that has data there, voids filled from those below
+/// The elevation rasters of the command line, for tiles of the layout where there is one: then of the overviews that
+/// are as fine, where settings allow them, and warped to posts of tiles. Throws Failure.
+[[nodiscard]] std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings,
+                                                                        const TileLayout* layout);
+
+/// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
 /// it, its border blended with them, and 0 m where none has.
-/// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
+/// Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
-    /// With a spacing of posts, of the overviews that are as fine, where settings allow them. Throws Failure.
-    explicit DemMosaic(const Settings& settings, double spacingDeg = 0.0);
+    /// Throws Failure.
+    explicit DemMosaic(const Settings& settings, const TileLayout* layout = nullptr);
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
-    /// Metres above the ellipsoid; the same number for the same position, whatever was read before.
-    [[nodiscard]] double height(const PositionDeg& position);
+    struct Found {
+        /// Above the ellipsoid.
+        double metres = 0.0;
+        /// No data, but what stands in a void.
+        bool isFilled = false;
+        std::size_t source = 0;
+    };
+
+    /// The same for the same position, whatever was read before. Returns: nullopt where no raster has data.
+    [[nodiscard]] std::optional<Found> find(const PositionDeg& position) { return heightFrom(0, position); }
+
+    /// Metres above the ellipsoid, 0 where no raster has data.
+    [[nodiscard]] double height(const PositionDeg& position) {
+        const auto found = find(position);
+        return found ? found->metres : 0.0;
+    }
 
     /// Heights of every post, of every raster used in the rectangle, that has part in it.
     [[nodiscard]] HeightRange range(const RectDeg& rect);
@@ -36,8 +57,9 @@ public:
 
     void prefetch(const RectDeg& rect);
 
-    /// Throws Failure when a raster is empty; reads, so it is done once and not in each thread.
-    void requireData();
+    /// Looks at each raster; reads, so it is done once and not in each thread. Returns: what the user should know of
+    /// them, in lines. Throws Failure when one is empty.
+    [[nodiscard]] std::vector<std::string> inspect();
 
     /// The finest distance between posts.
     [[nodiscard]] double finestDeg() const noexcept;
@@ -49,8 +71,14 @@ public:
     [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
 
 private:
-    /// Of the rasters from this one on, finest first; nullopt where none of them has data.
-    [[nodiscard]] std::optional<double> heightFrom(std::size_t source, const PositionDeg& position);
+    /// Of the layers from this one on, finest first; nullopt where none of them has data.
+    [[nodiscard]] std::optional<Found> heightFrom(std::size_t source, const PositionDeg& position);
+
+    /// What the coarser layers have, as heights of this one.
+    [[nodiscard]] VoidFill::Below below(std::size_t source, const PositionDeg& position);
+
+    /// A layer's share of the height, less than 1 in the bands at its rasters' borders.
+    [[nodiscard]] double share(std::size_t source, const PositionDeg& position) const noexcept;
 
     /// As DemSource::addRange(), above the ellipsoid.
     [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
@@ -59,8 +87,8 @@ private:
     std::vector<std::unique_ptr<DemSource>> _sources;
     /// One for each source.
     std::vector<VerticalShift> _shifts;
-    /// One for each source.
-    std::vector<BlendBand> _bands;
+    /// Of each source, those of its rasters that have one.
+    std::vector<std::vector<BlendBand>> _bands;
 };
 
 }  // namespace osgbindem

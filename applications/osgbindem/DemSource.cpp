@@ -21,63 +21,34 @@ namespace {
 constexpr int kBlock = 256;
 constexpr double kMostAtOnce = 1e6;
 
-// No terrain is this high: a number beyond is a mark for missing data that the file does not declare.
-constexpr double kHighest = 1e5;
-
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-void DemSource::Decoder::apply(std::vector<double>& values) const noexcept {
-    for (double& value : values) {
-        const bool missing =
-            nodata && (value == *nodata || (isSingle && static_cast<float>(value) == static_cast<float>(*nodata)));
-        const double metres = value * scale + offset;
-        value = missing || !(std::abs(metres) <= kHighest) ? kNaN : metres;
-    }
-}
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)), _voids(voidFill({}, false)) {}
 
-DemSource::Decoder DemSource::decoderOf(GDALRasterBand& band, const DemOptions& options) {
-    Decoder decoder;
-    int hasNodata = 0;
-    const double nodata = band.GetNoDataValue(&hasNodata);
-    if (hasNodata != 0) decoder.nodata = nodata;
-    if (options.raster.nodata) decoder.nodata = options.raster.nodata;
-    decoder.isSingle = band.GetRasterDataType() == GDT_Float32;
-    decoder.scale = band.GetScale() * options.metresPerUnit;
-    decoder.offset = band.GetOffset() * options.metresPerUnit;
-    return decoder;
-}
-
-DemSource::DemSource(const DemOptions& options)
-    : _raster(options.raster), _decoder(decoderOf(*_raster.dataset().GetRasterBand(1), options)), _voids(voidFill({})) {
-    if (_raster.warpSource() != nullptr) {
-        _sourceDecoder = decoderOf(*_raster.warpSource()->GetRasterBand(1), options);
-        _decoder.scale = _sourceDecoder.scale;
-        _decoder.offset = _sourceDecoder.offset;
-    }
-    _blockColumns = (_raster.width() + kBlock - 1) / kBlock;
-    const int blockRows = (_raster.height() + kBlock - 1) / kBlock;
-    _blocks.resize(static_cast<std::size_t>(_blockColumns) * static_cast<std::size_t>(blockRows), BlockState::Unknown);
-}
-
-VoidFill DemSource::voidFill(VoidFill::Coarser coarser) {
+VoidFill DemSource::voidFill(VoidFill::Coarser coarser, bool hasRivals) {
     const auto readPosts = [this](const PixelWindow& window, std::vector<double>& heights) {
-        read(_raster.dataset(), _decoder, window, heights);
+        read(_layer->dataset(), window, heights);
     };
-    return {{grid().columns(), grid().rows(), grid().isGlobal()}, readPosts, std::move(coarser)};
+    std::vector<PixelWindow> parts;
+    for (const RasterLayer::Member& member : _layer->members()) parts.push_back(member.window);
+    return {{grid().columns(), grid().rows(), grid().isGlobal(), std::move(parts)},
+            readPosts,
+            std::move(coarser),
+            hasRivals};
 }
 
-void DemSource::setCoarser(Coarser coarser) {
-    _voids = voidFill([this, coarser = std::move(coarser)](int column, int row) {
-        return coarser(grid().position(column, row)).value_or(kNaN);
-    });
+void DemSource::setCoarser(Coarser coarser, bool hasRivals) {
+    const auto at = [this, coarser = std::move(coarser)](int column, int row) {
+        return coarser(grid().position(column, row));
+    };
+    _voids = voidFill(at, hasRivals);
 }
 
-void DemSource::read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window,
-                     std::vector<double>& heights) {
+void DemSource::read(GDALDataset& dataset, const PixelWindow& window, std::vector<double>& heights) {
     heights.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
-    if (const Page* page = &dataset == &_raster.dataset() ? pageWith(window) : nullptr) {
+    if (const Page* page = &dataset == &_layer->dataset() ? pageWith(window) : nullptr) {
         auto target = heights.begin();
         for (int row = window.row; row < window.row + window.height; ++row) {
             const auto from = page->heights.begin() + page->offset(window.column, row);
@@ -88,8 +59,7 @@ void DemSource::read(GDALDataset& dataset, const Decoder& decoder, const PixelWi
     const CPLErr error =
         dataset.GetRasterBand(1)->RasterIO(GF_Read, window.column, window.row, window.width, window.height,
                                            heights.data(), window.width, window.height, GDT_Float64, 0, 0, nullptr);
-    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
-    decoder.apply(heights);
+    if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
 }
 
 const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noexcept {
@@ -99,15 +69,14 @@ const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noex
     return nullptr;
 }
 
-double DemSource::post(int column, int row) {
+double DemSource::ownPost(int column, int row) {
     const Page* page = pageWith({column, row, 1, 1});
-    if (page == nullptr) read(_raster.dataset(), _decoder, {column, row, 1, 1}, _scratch);
-    const double height =
-        page == nullptr ? _scratch.front() : page->heights[static_cast<std::size_t>(page->offset(column, row))];
-    return std::isnan(height) ? _voids.at(column, row) : height;
+    if (page != nullptr) return page->heights[static_cast<std::size_t>(page->offset(column, row))];
+    read(_layer->dataset(), {column, row, 1, 1}, _scratch);
+    return _scratch.front();
 }
 
-std::optional<double> DemSource::height(const PositionDeg& position) {
+std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
     // Nearly always one page has all four posts.
@@ -118,23 +87,33 @@ std::optional<double> DemSource::height(const PositionDeg& position) {
             break;
         }
     }
+    SourceHeight result;
+    bool isOwn = false;
     const auto at = [&](int column, int row) {
-        if (page == nullptr) return post(column, row);
-        const double height = page->heights[static_cast<std::size_t>(page->offset(column, row))];
-        return std::isnan(height) ? _voids.at(column, row) : height;
+        const double height =
+            page == nullptr ? ownPost(column, row) : page->heights[static_cast<std::size_t>(page->offset(column, row))];
+        if (!std::isnan(height)) {
+            isOwn = true;
+            return height;
+        }
+        const VoidFill::Below filled = _voids.at(column, row);
+        isOwn = isOwn || !filled.isRival;
+        result.isFilled = result.isFilled || !filled.isRival;
+        return filled.height;
     };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
     const double first = u > 0.0 ? (1.0 - u) * at(cell->west, cell->first) + u * at(cell->east, cell->first)
                                  : at(cell->west, cell->first);
-    double height = first;
+    result.metres = first;
     if (v > 0.0) {
         const double second = u > 0.0 ? (1.0 - u) * at(cell->west, cell->second) + u * at(cell->east, cell->second)
                                       : at(cell->west, cell->second);
-        height = (1.0 - v) * first + v * second;
+        result.metres = (1.0 - v) * first + v * second;
     }
-    if (std::isnan(height)) return std::nullopt;
-    return height;
+    // Among posts of rivals alone the rival itself knows better.
+    if (std::isnan(result.metres) || !isOwn) return std::nullopt;
+    return result;
 }
 
 double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
@@ -151,7 +130,7 @@ double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
     std::vector<Page> pages;
     for (const PixelWindow& window : windows) {
         pages.push_back({window, {}});
-        read(_raster.dataset(), _decoder, window, pages.back().heights);
+        read(_layer->dataset(), window, pages.back().heights);
     }
     _pages = std::move(pages);
     return wanted;
@@ -159,25 +138,29 @@ double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
 
 /// Calls `rows(part, heights)` for parts of the window that are small enough to be in memory.
 template <typename Rows>
-void DemSource::readInParts(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, const Rows& rows) {
+void DemSource::readInParts(GDALDataset& dataset, const PixelWindow& window, const Rows& rows) {
     const int most = std::max(1, static_cast<int>(kMostAtOnce / window.width));
     for (int row = window.row; row < window.row + window.height; row += most) {
         throwIfStopRequested();
         const PixelWindow part{window.column, row, window.width, std::min(most, window.row + window.height - row)};
-        read(dataset, decoder, part, _scratch);
+        read(dataset, part, _scratch);
         rows(part);
     }
 }
 
 bool DemSource::addRange(const PixelWindow& window, HeightRange& range) {
     bool isComplete = true;
-    readInParts(_raster.dataset(), _decoder, window, [&](const PixelWindow& part) {
+    readInParts(_layer->dataset(), window, [&](const PixelWindow& part) {
         std::vector<double> heights = std::move(_scratch);  // filling voids may read
         for (std::size_t i = 0; i < heights.size(); ++i) {
             const int place = static_cast<int>(i);
-            const double height = std::isnan(heights[i])
-                                      ? _voids.at(part.column + place % part.width, part.row + place / part.width)
-                                      : heights[i];
+            double height = heights[i];
+            if (std::isnan(height)) {
+                const VoidFill::Below filled =
+                    _voids.at(part.column + place % part.width, part.row + place / part.width);
+                height = filled.height;
+                isComplete = isComplete && !filled.isRival;
+            }
             if (std::isnan(height)) {
                 isComplete = false;
             } else {
@@ -189,41 +172,37 @@ bool DemSource::addRange(const PixelWindow& window, HeightRange& range) {
     return isComplete;
 }
 
-void DemSource::addSourceRange(const PixelWindow& window, HeightRange& range) {
-    readInParts(*_raster.warpSource(), _sourceDecoder, window, [&](const PixelWindow&) {
-        for (const double height : _scratch) {
-            if (!std::isnan(height)) range.include(height);
-        }
-    });
-}
-
 bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
     bool isComplete = grid().covers(rect);
     for (const PixelWindow& window : grid().touching(rect)) {
         isComplete = addRange(window, range) && isComplete;
-        if (_raster.warpSource() == nullptr) continue;
-        // The warped posts are averages; the file has the peaks.
-        for (const PixelWindow& source : _raster.sourceWindows(window)) addSourceRange(source, range);
+        // The warped posts are averages; the files have the peaks.
+        _layer->forSources(window, [&](GDALDataset& source, const PixelWindow& sourceWindow) {
+            readInParts(source, sourceWindow, [&](const PixelWindow&) {
+                for (const double height : _scratch) {
+                    if (!std::isnan(height)) range.include(height);
+                }
+            });
+        });
     }
     return isComplete;
 }
 
 bool DemSource::windowHasData(const PixelWindow& window) {
-    read(_raster.dataset(), _decoder, window, _scratch);
+    read(_layer->dataset(), window, _scratch);
     return std::any_of(_scratch.begin(), _scratch.end(), [](double height) { return !std::isnan(height); });
 }
 
 bool DemSource::blockHasData(int blockColumn, int blockRow) {
-    BlockState& state = _blocks[static_cast<std::size_t>(blockRow * _blockColumns + blockColumn)];
-    if (state == BlockState::Unknown) {
-        throwIfStopRequested();
-        const int column = blockColumn * kBlock;
-        const int row = blockRow * kBlock;
-        const PixelWindow window{column, row, std::min(kBlock, _raster.width() - column),
-                                 std::min(kBlock, _raster.height() - row)};
-        state = windowHasData(window) ? BlockState::HasData : BlockState::Empty;
-    }
-    return state == BlockState::HasData;
+    const auto known = _blocks.find({blockColumn, blockRow});
+    if (known != _blocks.end()) return known->second;
+    throwIfStopRequested();
+    const int column = blockColumn * kBlock;
+    const int row = blockRow * kBlock;
+    const bool result = windowHasData(
+        {column, row, std::min(kBlock, _layer->width() - column), std::min(kBlock, _layer->height() - row)});
+    _blocks.emplace(std::pair(blockColumn, blockRow), result);
+    return result;
 }
 
 bool DemSource::hasData(const PixelWindow& window) {
@@ -247,20 +226,6 @@ bool DemSource::hasData(const RectDeg& rect) {
         if (hasData(window)) return true;
     }
     return false;
-}
-
-bool DemSource::hasAnyData() {
-    // A look at every n-th post finds most data at once; only an almost empty raster is read as a whole.
-    constexpr int kLook = 256;
-    const int width = std::min(kLook, _raster.width());
-    const int height = std::min(kLook, _raster.height());
-    _scratch.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const CPLErr error = _raster.dataset().GetRasterBand(1)->RasterIO(
-        GF_Read, 0, 0, _raster.width(), _raster.height(), _scratch.data(), width, height, GDT_Float64, 0, 0, nullptr);
-    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
-    _decoder.apply(_scratch);
-    if (std::any_of(_scratch.begin(), _scratch.end(), [](double h) { return !std::isnan(h); })) return true;
-    return hasData(PixelWindow{0, 0, _raster.width(), _raster.height()});
 }
 
 }  // namespace osgbindem

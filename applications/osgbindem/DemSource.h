@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "GdalRaster.h"
+#include "RasterLayer.h"
 #include "VoidFill.h"
 
 #include <algorithm>
@@ -11,7 +11,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
@@ -29,35 +32,36 @@ struct HeightRange {
     }
 };
 
-struct DemOptions {
-    RasterOptions raster;
-    double metresPerUnit = 1.0;
+/// A height of a raster.
+struct SourceHeight {
+    double metres = 0.0;
+    /// No data: what stands in a void.
+    bool isFilled = false;
 };
 
-/// One elevation raster. Reads windows only; keeps the last window that was prefetched.
+/// One layer of elevation rasters. Reads windows only; keeps the last window that was prefetched.
 /// Not for use by several threads: each has its own.
 class DemSource final {
 public:
     /// More posts than this in memory save no time.
     static constexpr double kMostPosts = 3e6;
 
-    /// Throws Failure.
-    explicit DemSource(const DemOptions& options);
+    explicit DemSource(std::unique_ptr<RasterLayer> layer);
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
-    [[nodiscard]] const std::string& path() const noexcept { return _raster.path(); }
-    [[nodiscard]] const GdalRaster& raster() const noexcept { return _raster; }
-    [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
+    [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
 
-    /// The height of coarser rasters; nullopt where they have none.
-    using Coarser = std::function<std::optional<double>(const PositionDeg&)>;
+    /// What coarser rasters have.
+    using Coarser = std::function<VoidFill::Below(const PositionDeg&)>;
 
-    /// Fills large voids too, from what coarser rasters have there; before the first height is asked for.
-    void setCoarser(Coarser coarser);
+    /// Fills wide voids too, from what coarser rasters have there; before the first height is asked for.
+    /// `hasRivals`: whether some of them are nearly as fine.
+    void setCoarser(Coarser coarser, bool hasRivals);
 
     /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
-    [[nodiscard]] std::optional<double> height(const PositionDeg& position);
+    [[nodiscard]] std::optional<SourceHeight> height(const PositionDeg& position);
 
     /// Whether any post within the rectangle has data.
     [[nodiscard]] bool hasData(const RectDeg& rect);
@@ -70,19 +74,7 @@ public:
     /// Returns: the posts now in memory, at most mostPosts.
     double prefetch(const RectDeg& rect, double mostPosts = kMostPosts);
 
-    /// Whether the raster has any data at all.
-    [[nodiscard]] bool hasAnyData();
-
 private:
-    /// How the numbers of a band become metres.
-    struct Decoder {
-        std::optional<double> nodata;
-        bool isSingle = false;
-        double scale = 1.0;
-        double offset = 0.0;
-
-        void apply(std::vector<double>& values) const noexcept;
-    };
     struct Page {
         PixelWindow window;
         std::vector<double> heights;
@@ -91,28 +83,23 @@ private:
             return static_cast<std::ptrdiff_t>(row - window.row) * window.width + (column - window.column);
         }
     };
-    enum class BlockState : std::uint8_t { Unknown, Empty, HasData };
 
-    [[nodiscard]] static Decoder decoderOf(GDALRasterBand& band, const DemOptions& options);
-    void read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, std::vector<double>& heights);
+    void read(GDALDataset& dataset, const PixelWindow& window, std::vector<double>& heights);
     bool addRange(const PixelWindow& window, HeightRange& range);
-    void addSourceRange(const PixelWindow& window, HeightRange& range);
     template <typename Rows>
-    void readInParts(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, const Rows& rows);
+    void readInParts(GDALDataset& dataset, const PixelWindow& window, const Rows& rows);
     [[nodiscard]] bool hasData(const PixelWindow& window);
     [[nodiscard]] bool windowHasData(const PixelWindow& window);
     [[nodiscard]] bool blockHasData(int blockColumn, int blockRow);
-    [[nodiscard]] double post(int column, int row);
-    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser);
+    [[nodiscard]] double ownPost(int column, int row);
+    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser, bool hasRivals);
     [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
 
-    GdalRaster _raster;
-    Decoder _decoder;
-    Decoder _sourceDecoder;
+    std::unique_ptr<RasterLayer> _layer;
     std::vector<Page> _pages;
     std::vector<double> _scratch;
-    std::vector<BlockState> _blocks;
-    int _blockColumns = 0;
+    /// By column and row of a block, whether it has data.
+    std::map<std::pair<int, int>, bool> _blocks;
     VoidFill _voids;
 };
 

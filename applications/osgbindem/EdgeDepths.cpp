@@ -36,19 +36,6 @@ bool EdgeDepths::hasChildren(const TileId& tile) {
     return result;
 }
 
-int EdgeDepths::deepestWithin(const TileId& tile, Edge edge) {
-    if (!hasChildren(tile)) return tile.level;
-    const std::array<TileId, 2> children = childrenAlong(tile, edge);
-    return std::max(deepestWithin(children[0], edge), deepestWithin(children[1], edge));
-}
-
-int EdgeDepths::deepestAlong(const TileId& tile, Edge edge) {
-    const int own = deepestWithin(tile, edge);
-    const auto neighbour = tile.neighbour(edge);
-    if (!neighbour || coarsestAcross(tile, edge) < tile.level) return own;
-    return std::max(own, deepestWithin(*neighbour, oppositeOf(edge)));
-}
-
 int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {
     const auto neighbour = tile.neighbour(edge);
     if (!neighbour) return tile.level;

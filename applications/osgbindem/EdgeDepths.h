@@ -25,15 +25,10 @@ public:
 
     [[nodiscard]] bool hasChildren(const TileId& tile);
 
-    /// The deepest level of a tile along an edge of the given tile, on either side of it.
-    [[nodiscard]] int deepestAlong(const TileId& tile, Edge edge);
-
     /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
     [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
 
 private:
-    [[nodiscard]] int deepestWithin(const TileId& tile, Edge edge);
-
     DemMosaic& _mosaic;
     const TileLayout& _layout;
     std::map<TileId, bool> _known;

@@ -15,19 +15,33 @@ HeightGrid::HeightGrid(const TileId& tile, const TileLayout& layout)
       _cells(layout.cells()),
       _heights(static_cast<std::size_t>((layout.cells() + 3) * (layout.cells() + 3)), 0.0) {}
 
-void HeightGrid::samplePost(DemMosaic& mosaic, const TileLayout& layout, int column, int row) {
+std::optional<DemMosaic::Found> HeightGrid::samplePost(DemMosaic& mosaic, const TileLayout& layout, int column,
+                                                       int row) {
     PostId post = layout.firstPost(_tile, _tile.level);
     post.column += column;
     post.row += row;
     // What is stored is in whole steps; posts that tiles share are rounded alike.
     constexpr double kStep = osgAnalyticBin::TerrainGrid::kStep;
-    _heights[index(column, row)] = std::nearbyint(mosaic.height(layout.position(post)) / kStep) * kStep;
+    const auto found = mosaic.find(layout.position(post));
+    _heights[index(column, row)] = std::nearbyint((found ? found->metres : 0.0) / kStep) * kStep;
+    return found;
 }
 
-void HeightGrid::sample(DemMosaic& mosaic, const TileLayout& layout) {
+Tally HeightGrid::sample(DemMosaic& mosaic, const TileLayout& layout) {
+    Tally tally;
+    const RectDeg rect = _tile.rect();
+    const double spacing = layout.spacingDeg(_tile.level);
     for (int row = 0; row <= _cells; ++row) {
-        for (int column = 0; column <= _cells; ++column) samplePost(mosaic, layout, column, row);
+        for (int column = 0; column <= _cells; ++column) {
+            const auto found = samplePost(mosaic, layout, column, row);
+            if (row == _cells || column == _cells) continue;
+            ++tally.posts;
+            if (!found) ++tally.missing;
+            if (found) tally.addHeight(at(column, row), {rect.south + row * spacing, rect.west + column * spacing});
+            if (found && found->isFilled) ++tally.filled;
+        }
     }
+    return tally;
 }
 
 void HeightGrid::takeFrom(const HeightGrid& child) {

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "DemMosaic.h"
+#include "Tally.h"
 #include "TileLayout.h"
 
+#include <optional>
 #include <vector>
 
 namespace osgbindem {
@@ -21,7 +23,8 @@ public:
     [[nodiscard]] double at(int column, int row) const noexcept { return _heights[index(column, row)]; }
 
     /// Takes every post of the tile from the rasters, in whole steps of osgAnalyticBin::TerrainGrid.
-    void sample(DemMosaic& mosaic, const TileLayout& layout);
+    /// Returns: what was found, without the posts at the northern and eastern edge.
+    Tally sample(DemMosaic& mosaic, const TileLayout& layout);
 
     /// Takes every other post of a child: they are this tile's posts.
     void takeFrom(const HeightGrid& child);
@@ -41,7 +44,7 @@ private:
     [[nodiscard]] std::size_t index(int column, int row) const noexcept {
         return static_cast<std::size_t>((row + 1) * (_cells + 3) + column + 1);
     }
-    void samplePost(DemMosaic& mosaic, const TileLayout& layout, int column, int row);
+    std::optional<DemMosaic::Found> samplePost(DemMosaic& mosaic, const TileLayout& layout, int column, int row);
 
     TileId _tile;
     int _cells;

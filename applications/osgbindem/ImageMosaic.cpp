@@ -18,14 +18,6 @@ namespace {
 
 constexpr std::uint8_t kOpaque = 255;
 
-RasterOptions optionsFor(const std::string& path, bool isWgs84) {
-    RasterOptions options;
-    options.path = path;
-    options.isWgs84 = isWgs84;
-    options.isElevation = false;
-    return options;
-}
-
 bool isColour(GDALDataset& dataset) {
     return dataset.GetRasterCount() >= 3;
 }
@@ -77,7 +69,33 @@ private:
 
 }  // namespace
 
-ImageSource::ImageSource(const std::string& path, bool isWgs84) : _raster(optionsFor(path, isWgs84)) {}
+std::vector<RasterOptions> imageOptions(const Settings& settings) {
+    std::vector<RasterOptions> images;
+    for (const std::string& path : settings.images) {
+        RasterOptions options;
+        options.path = path;
+        options.isWgs84 = settings.isWgs84;
+        options.isElevation = false;
+        images.push_back(std::move(options));
+    }
+    return images;
+}
+
+bool ImageSource::overlaps(const RectDeg& rect) const noexcept {
+    const auto& members = _layer->members();
+    return std::any_of(members.begin(), members.end(),
+                       [&](const RasterLayer::Member& member) { return member.grid.overlap(rect) > 0.0; });
+}
+
+bool ImageSource::covers(const RectDeg& rect) const noexcept {
+    double sum = 0.0;
+    for (const RasterLayer::Member& member : _layer->members()) {
+        if (member.grid.covers(rect)) return true;
+        sum += member.grid.overlap(rect);
+    }
+    constexpr double kRounding = 1e-6;
+    return grid().covers(rect) && sum >= (1.0 - kRounding) * (rect.east - rect.west) * (rect.north - rect.south);
+}
 
 const std::uint8_t* ImageSource::Patch::pixel(int column, int row) const noexcept {
     // divisions would take most of the time where nothing is reduced
@@ -96,7 +114,7 @@ bool ImageSource::load(const RectDeg& rect, int mostPixels) {
 }
 
 ImageSource::Patch ImageSource::read(const PixelWindow& window, int mostPixels) const {
-    GDALDataset& dataset = _raster.dataset();
+    GDALDataset& dataset = _layer->dataset();
     Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
     patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), kOpaque);
     for (int channel = 0; channel < 3; ++channel) {
@@ -114,11 +132,11 @@ void ImageSource::readBand(GDALRasterBand& band, const Patch& patch, std::uint8_
     const CPLErr error =
         band.RasterIO(GF_Read, window.column, window.row, window.width, window.height, target, patch.width,
                       patch.height, GDT_Byte, bytesApart, static_cast<GSpacing>(bytesApart) * patch.width, &extra);
-    if (error != CE_None) throw Failure("cannot read \"" + _raster.path() + "\": " + gdalMessage());
+    if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
 }
 
 void ImageSource::readAlpha(Patch& patch) const {
-    GDALDataset& dataset = _raster.dataset();
+    GDALDataset& dataset = _layer->dataset();
     GDALRasterBand& first = *dataset.GetRasterBand(1);
     if (first.GetMaskFlags() == GMF_ALL_VALID) return;
     // Where each band has a nodata value of its own, a pixel is missing only when all of its colours are.
@@ -167,17 +185,23 @@ Cover ImageSource::sample(const PositionDeg& position) const noexcept {
 }
 
 ImageMosaic::ImageMosaic(const Settings& settings) {
-    for (const std::string& path : settings.images) {
-        _layers.push_back({std::make_unique<ImageSource>(path, settings.isWgs84), {}});
-    }
-    std::stable_sort(_layers.begin(), _layers.end(), [](const Layer& a, const Layer& b) {
-        return a.image->grid().resolutionDeg() < b.image->grid().resolutionDeg();
-    });
     std::vector<RasterGrid> grids;
-    for (const Layer& layer : _layers) grids.push_back(layer.image->grid());
-    for (Layer& layer : _layers) {
-        layer.band = BlendBand(layer.image->grid(), grids, settings.blend, settings.ellipsoid.equatorialRadius());
+    for (auto& layer : RasterLayer::layersOf(imageOptions(settings))) {
+        for (const RasterLayer::Member& member : layer->members()) grids.push_back(member.grid);
+        _layers.push_back({std::make_unique<ImageSource>(std::move(layer)), {}});
     }
+    for (Layer& layer : _layers) {
+        for (const RasterLayer::Member& member : layer.image->layer().members()) {
+            BlendBand band(member.grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+            if (!band.isEmpty()) layer.bands.push_back(std::move(band));
+        }
+    }
+}
+
+double ImageMosaic::Layer::share(const PositionDeg& position) const noexcept {
+    double share = 1.0;
+    for (const BlendBand& band : bands) share = std::min(share, band.share(position));
+    return share;
 }
 
 int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
@@ -185,8 +209,8 @@ int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
     const Layer* finest = nullptr;
     bool isCovered = false;
     for (const Layer& layer : _layers) {
-        if (!finest && layer.image->grid().overlap(rect) > 0.0) finest = &layer;
-        isCovered = isCovered || layer.image->grid().covers(rect);
+        if (!finest && layer.image->overlaps(rect)) finest = &layer;
+        isCovered = isCovered || layer.image->covers(rect);
     }
     if (!finest) return 0;
     const double pixels = std::ldexp(TileLayout::kStartTileDeg, -tile.level) / finest->image->grid().resolutionDeg();
@@ -200,7 +224,7 @@ Cover ImageMosaic::sample(std::size_t first, const PositionDeg& position) const 
     for (std::size_t i = first; i < _loaded.size(); ++i) {
         const Cover own = _loaded[i]->image->sample(position);
         if (own.alpha == 0.0) continue;
-        const double share = _loaded[i]->band.share(position);
+        const double share = _loaded[i]->share(position);
         if (own.alpha == 1.0 && share == 1.0) return own;
         const Cover below = sample(i + 1, position);
         // In its band an image gives way to coarser images, and not to the relief.

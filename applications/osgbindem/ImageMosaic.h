@@ -4,7 +4,7 @@
 #pragma once
 
 #include "BlendBand.h"
-#include "GdalRaster.h"
+#include "RasterLayer.h"
 #include "Settings.h"
 #include "TerrainGrid.h"
 #include "TileLayout.h"
@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
@@ -28,13 +29,17 @@ struct Cover {
     double alpha = 0.0;
 };
 
-/// One image. Not for use by several threads: each has its own.
+/// One layer of images. Not for use by several threads: each has its own.
 class ImageSource final {
 public:
-    /// Throws Failure.
-    ImageSource(const std::string& path, bool isWgs84);
+    explicit ImageSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)) {}
 
-    [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
+    [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
+
+    /// Whether an image of the layer has a part in the rectangle, and whether one covers it.
+    [[nodiscard]] bool overlaps(const RectDeg& rect) const noexcept;
+    [[nodiscard]] bool covers(const RectDeg& rect) const noexcept;
 
     /// Reads the part that touches the rectangle, reduced to so many pixels along a side at most, in place of the one
     /// before. Returns: whether there is any. Throws Failure.
@@ -60,9 +65,12 @@ private:
     void readAlpha(Patch& patch) const;
     [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept;
 
-    GdalRaster _raster;
+    std::unique_ptr<RasterLayer> _layer;
     std::vector<Patch> _patches;
 };
+
+/// The images of the command line, as they are to be opened.
+[[nodiscard]] std::vector<RasterOptions> imageOptions(const Settings& settings);
 
 /// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, its
 /// border blended with coarser ones, and the colours of the relief where none has.
@@ -83,7 +91,10 @@ public:
 private:
     struct Layer {
         std::unique_ptr<ImageSource> image;
-        BlendBand band;
+        /// Of the images that have one.
+        std::vector<BlendBand> bands;
+
+        [[nodiscard]] double share(const PositionDeg& position) const noexcept;
     };
 
     /// Of the layers with a part in the tile from this one on, finest first.

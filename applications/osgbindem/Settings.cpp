@@ -4,9 +4,9 @@
 #include "Settings.h"
 
 #include "Failure.h"
-#include "GdalRaster.h"
 #include "NumberRange.h"
 #include "ProgramRun.h"
+#include "RasterFile.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,7 +94,8 @@ void takeDems(Arguments& arguments) {
                          std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
     }
     for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
-        const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
+        std::optional<double> scale;
+        if (!scales.empty()) scale = scales[scales.size() == 1 ? 0 : i];
         arguments.settings.dems.push_back({arguments.dems[i], scale});
     }
 }
@@ -110,6 +112,7 @@ void takeRadii(Arguments& arguments) {
                              " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
         }
     }
+    arguments.settings.areRadiiGiven = !arguments.radii.empty();
     arguments.settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
     arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
 }
@@ -151,9 +154,12 @@ void declare(CLI::App& app, Arguments& arguments) {
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
     app.add_option("--height-unit,--scale", arguments.scales,
-                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m); "
+                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default: the "
+                   "unit in the raster, else m); "
                    "--scale is its older name")
         ->delimiter(',');
+    app.add_option("-b,--band", settings.band, "band of the elevation rasters with the heights (default: the first)")
+        ->check(CLI::Range(1, 65535));
     app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");
     app.add_option(
            "--te", arguments.region,
@@ -175,7 +181,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "image that GDAL reads, draped over the terrain; may be given several times: the finest\nthat has a "
                    "pixel counts, and the colours of the relief where none has")
         ->allow_extra_args(false);
-    app.add_option("--radii", arguments.radii, "equatorial and polar radius in metres (default: WGS 84)")->expected(2);
+    app.add_option("--radii", arguments.radii,
+                   "equatorial and polar radius in metres\n(default: those of the first raster where it is of another "
+                   "body than the earth, else WGS 84)")
+        ->expected(2);
     app.add_option("--cells", settings.cells, "cells along the edge of a tile, even\n(default: from the rasters)")
         ->check(CLI::Range(4, 240))
         ->check(evenness);
@@ -205,7 +214,13 @@ void declare(CLI::App& app, Arguments& arguments) {
            "or left out since; all have to be named")
         ->excludes(restart)
         ->excludes(overwrite);
-    app.add_flag("--quiet", settings.quiet, "show no progress");
+    app.add_flag("-q,--quiet", settings.quiet, "show no progress, summary or warnings");
+    app.add_option("--config", settings.config,
+                   "an option of GDAL's configuration: KEY VALUE; may be given several times")
+        ->type_size(2)
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -226,6 +241,19 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     takeRegion(arguments);
     requireFiles(arguments.settings);
     return arguments.settings;
+}
+
+Settings withDeclaredRadii(Settings settings) {
+    if (settings.areRadiiGiven) return settings;
+    const auto radii = foreignRadiiOf(settings.dems.front().path);
+    if (!radii) return settings;
+    settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(radii->equatorial, radii->polar);
+    settings.isWgs84 = false;
+    if (!settings.quiet) {
+        std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", " << radii->equatorial
+                  << " and " << radii->polar << " m; see --radii" << std::endl;
+    }
+    return settings;
 }
 
 }  // namespace osgbindem

@@ -16,8 +16,8 @@ namespace osgbindem {
 /// One elevation raster as named on the command line.
 struct DemInput {
     std::string path;
-    /// Metres per unit of the raster's heights.
-    double metresPerUnit = 1.0;
+    /// Metres per unit of the raster's heights; without it, what the raster declares.
+    std::optional<double> metresPerUnit = std::nullopt;
 };
 
 /// Everything the command line says.
@@ -30,10 +30,15 @@ struct Settings {
     /// rasters.
     std::optional<double> blend;
     std::vector<std::string> images;
+    /// The band of elevation rasters with the heights.
+    std::optional<int> band;
+    /// GDAL's configuration: names, each followed by its value.
+    std::vector<std::string> config;
     std::string output;
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Whether the radii are those of a default osg::EllipsoidModel.
     bool isWgs84 = true;
+    bool areRadiiGiven = false;
     /// The part of the earth that is built; all of it without. East is greater than west, and may pass 180.
     std::optional<RectDeg> region;
     /// Levels below the start tiles of a whole globe.
@@ -63,5 +68,9 @@ struct Settings {
 /// Reads the command line, the program's name first. No raster is opened.
 /// Returns: nullopt after help or version was printed. Throws Failure.
 [[nodiscard]] std::optional<Settings> settingsFrom(int argc, const char* const* argv);
+
+/// The same with the radii of the first raster where that is of another body than the earth and none are given.
+/// Throws Failure.
+[[nodiscard]] Settings withDeclaredRadii(Settings settings);
 
 }  // namespace osgbindem

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace osgbindem {
 
@@ -25,6 +27,16 @@ struct SkirtMeasure::Line {
     /// The post at a distance along the edge, counted in posts of its level.
     [[nodiscard]] PostId post(int level, std::int64_t along, std::int64_t across) const {
         return isParallel() ? PostId{level, along, across} : PostId{level, across, along};
+    }
+    /// The tile at a place along the edge, counted from its first post, on the own tile's side.
+    [[nodiscard]] TileId tileAt(int level, std::int64_t place) const {
+        const int shift = level - tile.level;
+        const int last = (1 << shift) - 1;
+        TileId found{level, tile.x << shift, tile.y << shift};
+        (isParallel() ? found.x : found.y) += static_cast<int>(place);
+        if (edge == Edge::North) found.y += last;
+        if (edge == Edge::East) found.x += last;
+        return found;
     }
     [[nodiscard]] std::int64_t along() const { return isParallel() ? first.column : first.row; }
     [[nodiscard]] std::int64_t across() const { return isParallel() ? first.row : first.column; }
@@ -106,8 +118,7 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
         own.heights.push_back(heights.at(column, row));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
-    const int deepest = _depths.deepestAlong(tile, edge);
-    for (int level = tile.level + 1; level <= deepest; ++level) compareWithFiner(own, level, skirt);
+    compareWithFiner(own, skirt);
     const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
@@ -120,31 +131,59 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
     return skirt;
 }
 
-void SkirtMeasure::compareWithFiner(const Line& own, int level, EdgeSkirt& skirt) {
-    const int shift = level - own.tile.level;
-    const std::int64_t parts = std::int64_t{1} << shift;
-    for (std::size_t segment = 0; segment + 1 < own.points.size(); ++segment) {
+void SkirtMeasure::compareWithFiner(const Line& own, EdgeSkirt& skirt) {
+    // Tiles along the edge with finer ones below them, on one of its sides, counted from its first post.
+    std::vector<std::int64_t> parents{0};
+    for (int level = own.tile.level; !parents.empty(); ++level) {
+        parents.erase(std::remove_if(parents.begin(), parents.end(),
+                                     [&](std::int64_t place) {
+                                         const TileId tile = own.tileAt(level, place);
+                                         const auto other = tile.neighbour(own.edge);
+                                         return !_depths.hasChildren(tile) && !(other && _depths.hasChildren(*other));
+                                     }),
+                      parents.end());
+        if (!parents.empty()) compareWithFiner(own, level + 1, parents, skirt);
+        std::vector<std::int64_t> children;
+        for (const std::int64_t place : parents) children.insert(children.end(), {2 * place, 2 * place + 1});
+        parents = std::move(children);
+    }
+}
+
+void SkirtMeasure::compareWithFiner(const Line& own, int level, const std::vector<std::int64_t>& parents,
+                                    EdgeSkirt& skirt) {
+    struct Segment {
         double drop = 0.0;
         double lean = 0.0;
-        double lowest = std::min(own.heights[segment], own.heights[segment + 1]);
+        double lowest = 0.0;
+    };
+    std::map<std::size_t, Segment> segments;
+    const int shift = level - own.tile.level;
+    const std::int64_t parts = std::int64_t{1} << shift;
+    const std::int64_t posts = std::int64_t{2} * _layout.cells();  // along a parent's edge
+    for (const std::int64_t parent : parents) {
         // Even posts belong to the levels between, which were compared before.
-        for (std::int64_t part = 1; part < parts; part += 2) {
-            const std::int64_t along = ((own.along() + static_cast<std::int64_t>(segment)) << shift) + part;
-            const PostId post = own.post(level, along, own.across() << shift);
-            const double share = static_cast<double>(part) / static_cast<double>(parts);
+        for (std::int64_t place = parent * posts + 1; place < (parent + 1) * posts; place += 2) {
+            const auto i = static_cast<std::size_t>(place >> shift);
+            const double ends = std::min(own.heights[i], own.heights[i + 1]);
+            Segment& segment = segments.try_emplace(i, Segment{0.0, 0.0, ends}).first->second;
+            const PostId post = own.post(level, (own.along() << shift) + place, own.across() << shift);
+            const double share = static_cast<double>(place % parts) / static_cast<double>(parts);
             const double height = _mosaic.height(_layout.position(post));
-            const Gap gap = gapBetween(between(own.points[segment], own.points[segment + 1], share),
+            const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
                                        _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
                                        TileFrame(_layout.geodetic(post, 0.0)), own.edge);
-            raise(drop, gap.drop);
-            raise(lean, gap.reach);
-            lowest = std::min(lowest, height);
+            raise(segment.drop, gap.drop);
+            raise(segment.lean, gap.reach);
+            segment.lowest = std::min(segment.lowest, height);
         }
-        const std::array<double, 2> ends{own.heights[segment], own.heights[segment + 1]};
-        const bool isCliff = drop > kCliff * std::abs(ends[1] - ends[0]) && lowest > std::min(ends[0], ends[1]) - drop;
-        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-            raise(skirt.depth[segment + i], isCliff ? ends[i] - lowest : drop);
-            raise(skirt.lean[segment + i], lean);
+    }
+    for (const auto& [i, segment] : segments) {
+        const std::array<double, 2> ends{own.heights[i], own.heights[i + 1]};
+        const bool isCliff = segment.drop > kCliff * std::abs(ends[1] - ends[0]) &&
+                             segment.lowest > std::min(ends[0], ends[1]) - segment.drop;
+        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+            raise(skirt.depth[i + end], isCliff ? ends[end] - segment.lowest : segment.drop);
+            raise(skirt.lean[i + end], segment.lean);
         }
     }
 }

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace osgbindem {
@@ -49,7 +50,9 @@ private:
     struct Line;
 
     [[nodiscard]] EdgeSkirt measureEdge(const HeightGrid& heights, Edge edge);
-    void compareWithFiner(const Line& own, int level, EdgeSkirt& skirt);
+    /// With all levels of tiles that stand along the edge, and only where they do.
+    void compareWithFiner(const Line& own, EdgeSkirt& skirt);
+    void compareWithFiner(const Line& own, int level, const std::vector<std::int64_t>& parents, EdgeSkirt& skirt);
     void compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt);
     [[nodiscard]] glm::dvec3 ecef(const PostId& post);
 
@@ -64,6 +67,8 @@ struct SurveyedTile {
     Skirt skirt;
     /// The full-resolution heights under the tile.
     HeightRange range;
+    /// Of the tile and everything below it.
+    Tally tally;
     /// Holds the bins of all tiles below; not valid for a tile without children.
     osgAnalyticBin::AnalyticBin below;
 };

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <iostream>
 #include <set>
 
 namespace osgbindem {
@@ -64,7 +65,9 @@ TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
 
 TileLayout checkedLayoutFor(const Settings& settings) {
     DemMosaic mosaic(settings);
-    mosaic.requireData();
+    for (const std::string& line : mosaic.inspect()) {
+        if (!settings.quiet) std::cout << line << std::endl;
+    }
     if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
         throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
     }
@@ -91,7 +94,7 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
 }
 
 std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
-    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
+    DemMosaic mosaic(settings, &layout);
     EdgeDepths depths(mosaic, layout);
     return planTasks(mosaic, depths, layout);
 }

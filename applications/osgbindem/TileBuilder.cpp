@@ -30,7 +30,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
     : _settings(settings),
       _layout(layout),
       _files(files),
-      _mosaic(settings, layout.spacingDeg(layout.deepestLevel())),
+      _mosaic(settings, &layout),
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
       _images(settings),
@@ -48,7 +48,7 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
         if (_leafDone) _leafDone(tile);
         return leaf;
     }
-    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}};
+    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}, {}};
     buildChildren(surveyed);
     finishSurvey(surveyed);
     return surveyed;
@@ -56,8 +56,12 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
 
 SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
     prefetch(tile);
-    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}};
-    surveyed.heights.sample(_mosaic, _layout);
+    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}, {}};
+    const Tally tally = surveyed.heights.sample(_mosaic, _layout);
+    // Tiles beside a region are there to surround it.
+    if (_layout.isInRegion(tile)) surveyed.tally = tally;
+    surveyed.tally.tiles = 1.0;
+    surveyed.tally.deepest = tile.level;
     finishSurvey(surveyed);
     return surveyed;
 }
@@ -84,6 +88,7 @@ void TileBuilder::buildChildren(SurveyedTile& tile) {
         const std::unique_ptr<BuiltTile> child = build(childId);
         tile.heights.takeFrom(child->heights);
         tile.range.include(child->range);
+        tile.tally.add(child->tally);
         tile.below.expandBy(child->bin);
         file->addChild(child->node);
         child->add(shared);
@@ -91,6 +96,9 @@ void TileBuilder::buildChildren(SurveyedTile& tile) {
     const std::string bytes = nodeFileBytes(*file, _settings.compress);
     _files.writeChildren(id, bytes);
     _written.add(id, bytes);
+    ++tile.tally.tiles;
+    ++tile.tally.files;
+    tile.tally.bytes += static_cast<double>(bytes.size());
 }
 
 std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
@@ -115,7 +123,7 @@ std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
                           tile.below.valid() ? _files.childrenFile(id) : ""};
     const osg::ref_ptr<osg::Node> node = makeTileNode(id, *placed, facts);
     return std::make_unique<BuiltTile>(
-        BuiltTile{std::move(tile.heights), tile.range, bin, node, geometry, grid.textureSize});
+        BuiltTile{std::move(tile.heights), tile.range, tile.tally, bin, node, geometry, grid.textureSize});
 }
 
 SharedParts TileBuilder::sharedParts() const {
@@ -172,6 +180,12 @@ void StartTiles::build(TileBuilder& builder) {
         if (i == 0) _shared = builder.sharedParts();  // which are the same for all builders
         _tiles[i] = builder.build(_layout.startTiles()[i]);
     }
+}
+
+Tally StartTiles::tally() const {
+    Tally tally;
+    for (const auto& tile : _tiles) tally.add(tile->tally);
+    return tally;
 }
 
 std::string StartTiles::rootBytes() const {

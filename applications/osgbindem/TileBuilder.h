@@ -32,6 +32,7 @@ struct BuiltTile {
     HeightGrid heights;
     /// The full-resolution heights under the tile.
     HeightRange range;
+    Tally tally;
     /// Holds those, what the mesh draws, and the bins of all tiles below.
     osgAnalyticBin::AnalyticBin bin;
     osg::ref_ptr<osg::Node> node;
@@ -108,6 +109,9 @@ public:
 
     /// Requires: all are built. The bytes of the root file.
     [[nodiscard]] std::string rootBytes() const;
+
+    /// Requires: all are built.
+    [[nodiscard]] Tally tally() const;
 
 private:
     const Settings& _settings;

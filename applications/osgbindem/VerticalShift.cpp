@@ -24,13 +24,8 @@ OGRSpatialReference referenceOf(const std::string& grid) {
     return reference;
 }
 
-/// The vertical part of a raster's reference system with longitudes and latitudes of WGS 84.
-OGRSpatialReference withPositions(const OGR_SRSNode& vertical) {
-    char* text = nullptr;
-    vertical.exportToWkt(&text);
-    OGRSpatialReference heights;
-    heights.importFromWkt(text);
-    CPLFree(text);
+/// A vertical reference system with longitudes and latitudes of WGS 84.
+OGRSpatialReference withPositions(const OGRSpatialReference& heights) {
     OGRSpatialReference positions;
     positions.importFromEPSG(4326);
     OGRSpatialReference reference;
@@ -40,24 +35,18 @@ OGRSpatialReference withPositions(const OGR_SRSNode& vertical) {
 
 }  // namespace
 
-VerticalShift::VerticalShift(const GdalRaster& raster, const std::string& geoid) {
+VerticalShift::VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path) {
     if (geoid == "none") return;
     if (geoid == "egm96") {
         open(referenceOf("egm96_15.gtx"), "the geoid EGM96");
-        return;
-    }
-    if (!geoid.empty()) {
+    } else if (!geoid.empty()) {
         open(referenceOf(std::filesystem::absolute(geoid).string()), "the geoid \"" + geoid + "\"");
-        return;
+    } else if (!vertical.empty()) {
+        OGRSpatialReference heights;
+        heights.importFromWkt(vertical.c_str());
+        open(withPositions(heights),
+             std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"");
     }
-    GDALDataset& dataset = raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset();
-    const OGRSpatialReference* reference = dataset.GetSpatialRef();
-    if (reference == nullptr || reference->IsCompound() == 0) return;
-    const OGR_SRSNode* vertical = reference->GetAttrNode("VERT_CS");
-    if (vertical == nullptr) vertical = reference->GetAttrNode("VERTCRS");
-    if (vertical == nullptr || vertical->GetChildCount() == 0) return;
-    open(withPositions(*vertical), std::string("the vertical reference \"") + vertical->GetChild(0)->GetValue() +
-                                       "\" of \"" + raster.path() + "\"");
 }
 
 void VerticalShift::open(const OGRSpatialReference& reference, const std::string& what) {

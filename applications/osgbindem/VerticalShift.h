@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "GdalRaster.h"
 #include "RasterGrid.h"
 
 #include <ogr_spatialref.h>
@@ -17,11 +16,15 @@ namespace osgbindem {
 /// Not for use by several threads: each has its own.
 class VerticalShift final {
 public:
-    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what the raster's
-    /// reference system says, no shift when it says nothing. Throws Failure when PROJ has no grid for it.
-    VerticalShift(const GdalRaster& raster, const std::string& geoid);
+    /// `vertical`: the vertical part of the reference system of the raster at `path`, empty when it has none.
+    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what `vertical` says.
+    /// Throws Failure when PROJ has no grid for it.
+    VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path);
 
     [[nodiscard]] bool isNone() const noexcept { return !_transformation; }
+
+    /// For the user: what heights are above.
+    [[nodiscard]] const std::string& what() const noexcept { return _what; }
 
     /// Metres. Throws Failure where the grid has none.
     [[nodiscard]] double at(const PositionDeg& position) const;

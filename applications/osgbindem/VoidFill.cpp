@@ -4,8 +4,8 @@
 #include "VoidFill.h"
 
 #include "Failure.h"
-#include "GdalRaster.h"
 #include "Interruption.h"
+#include "RasterFile.h"
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
@@ -108,15 +108,20 @@ struct VoidFill::Window {
     PixelWindow posts;
     PixelWindow block;
     std::vector<double> heights;
-    /// Of each post: that of a void too large to be interpolated.
-    std::vector<bool> isLarge;
+    /// Of each post: beyond the raster's border, and that of a void too wide to be interpolated.
+    std::vector<bool> isOutside;
+    std::vector<bool> isWide;
+    /// Of each post: that of a rival's height.
+    std::vector<bool> isRival;
 
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(posts.width) + static_cast<std::size_t>(x);
     }
     [[nodiscard]] bool isMissing(int x, int y) const noexcept { return std::isnan(heights[index(x, y)]); }
 
-    /// Calls `visit(x, y, i)` for each missing post of the block, `i` counting the block's posts.
+    [[nodiscard]] bool isVoid(int x, int y) const noexcept { return isMissing(x, y) && !isOutside[index(x, y)]; }
+
+    /// Calls `visit(x, y, i)` for each missing post of the block within the raster, `i` counting the block's posts.
     template <typename Visit>
     void forMissing(const Visit& visit) const {
         std::size_t i = 0;
@@ -124,48 +129,57 @@ struct VoidFill::Window {
             for (int column = block.column; column < block.column + block.width; ++column, ++i) {
                 const int x = column - posts.column;
                 const int y = row - posts.row;
-                if (isMissing(x, y)) visit(x, y, i);
+                if (isVoid(x, y)) visit(x, y, i);
             }
         }
     }
 
-    /// Tells small voids from large ones. Those that reach the window's edge are large.
-    void sortVoids() {
-        isLarge.assign(heights.size(), false);
+    [[nodiscard]] std::vector<GByte> known() const {
+        std::vector<GByte> isKnown(heights.size());
+        std::transform(heights.begin(), heights.end(), isKnown.begin(),
+                       [](double height) { return static_cast<GByte>(std::isnan(height) ? 0 : 255); });
+        return isKnown;
+    }
+
+    /// Tells narrow voids from wide ones. Those along the raster's border are wide.
+    /// `distances`: posts to the nearest one with data.
+    void sortVoids(const std::vector<float>& distances) {
+        isWide.assign(heights.size(), false);
         std::vector<bool> isSeen(heights.size(), false);
         for (int y = 0; y < posts.height; ++y) {
             for (int x = 0; x < posts.width; ++x) {
-                if (isMissing(x, y) && !isSeen[index(x, y)]) sortVoid(x, y, isSeen);
+                if (isVoid(x, y) && !isSeen[index(x, y)]) sortVoid(x, y, isSeen, distances);
             }
         }
     }
 
 private:
-    void sortVoid(int startX, int startY, std::vector<bool>& isSeen) {
+    void sortVoid(int startX, int startY, std::vector<bool>& isSeen, const std::vector<float>& distances) {
+        constexpr std::size_t kMostAtBorder = 4;  // one post of so many
         std::vector<std::pair<int, int>> found{{startX, startY}};
         isSeen[index(startX, startY)] = true;
-        int west = startX, east = startX, first = startY, last = startY;
+        bool isNarrow = true;
+        std::size_t atBorder = 0;
         for (std::size_t next = 0; next < found.size(); ++next) {
             const auto [x, y] = found[next];
-            west = std::min(west, x);
-            east = std::max(east, x);
-            first = std::min(first, y);
-            last = std::max(last, y);
+            isNarrow = isNarrow && distances[index(x, y)] <= 0.5F * kNarrow;
+            bool isAtBorder = false;
             for (int v = std::max(0, y - 1); v <= std::min(posts.height - 1, y + 1); ++v) {
                 for (int u = std::max(0, x - 1); u <= std::min(posts.width - 1, x + 1); ++u) {
-                    if (!isMissing(u, v) || isSeen[index(u, v)]) continue;
+                    isAtBorder = isAtBorder || isOutside[index(u, v)];
+                    if (!isVoid(u, v) || isSeen[index(u, v)]) continue;
                     isSeen[index(u, v)] = true;
                     found.emplace_back(u, v);
                 }
             }
+            if (isAtBorder) ++atBorder;
         }
-        const bool isAtEdge = west == 0 || first == 0 || east == posts.width - 1 || last == posts.height - 1;
-        if (!isAtEdge && east - west < kSmall && last - first < kSmall) return;
-        for (const auto& [x, y] : found) isLarge[index(x, y)] = true;
+        if (isNarrow && kMostAtBorder * atBorder <= found.size()) return;
+        for (const auto& [x, y] : found) isWide[index(x, y)] = true;
     }
 };
 
-double VoidFill::at(int column, int row) {
+VoidFill::Below VoidFill::at(int column, int row) {
     const int blocksPerRow = (_shape.width + kVoidBlock - 1) / kVoidBlock;
     const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
                             std::min(kVoidBlock, _shape.width - column / kVoidBlock * kVoidBlock),
@@ -176,14 +190,15 @@ double VoidFill::at(int column, int row) {
         throwIfStopRequested();
         if (_held >= kMostHeld) {
             for (auto it = _blocks.begin(); it != _blocks.end();)
-                it = it->second.empty() ? std::next(it) : _blocks.erase(it);
+                it = it->second.heights.empty() ? std::next(it) : _blocks.erase(it);
             _held = 0;
         }
         found = _blocks.emplace(number, filled(block)).first;
-        if (!found->second.empty()) ++_held;
+        if (!found->second.heights.empty()) ++_held;
     }
-    if (found->second.empty()) return kMissing;
-    return found->second[static_cast<std::size_t>((row - block.row) * block.width + column - block.column)];
+    if (found->second.heights.empty()) return {};
+    const auto post = static_cast<std::size_t>((row - block.row) * block.width + column - block.column);
+    return {found->second.heights[post], found->second.isRival[post]};
 }
 
 void VoidFill::read(Window& window) const {
@@ -219,83 +234,112 @@ void VoidFill::read(Window& window) const {
     }
 }
 
-std::vector<float> VoidFill::filled(const PixelWindow& block) const {
+void VoidFill::findOutside(Window& window) const {
+    const PixelWindow& posts = window.posts;
+    window.isOutside.assign(window.heights.size(), true);
+    for (const PixelWindow& part : _shape.parts) {
+        const int turns = _shape.isGlobal ? 1 : 0;
+        for (int turn = -turns; turn <= turns; ++turn) {
+            const int column = part.column + turn * _shape.width;
+            const int west = std::max(column - posts.column, 0);
+            const int east = std::min(column + part.width - posts.column, posts.width);
+            const int first = std::max(part.row - posts.row, 0);
+            const int last = std::min(part.row + part.height - posts.row, posts.height);
+            for (int y = first; y < last; ++y)
+                for (int x = west; x < east; ++x) window.isOutside[window.index(x, y)] = false;
+        }
+    }
+}
+
+void VoidFill::takeRivals(Window& window) const {
+    for (int y = 0; y < window.posts.height; ++y) {
+        for (int x = 0; x < window.posts.width; ++x) {
+            if (!window.isVoid(x, y)) continue;
+            const Below below = belowAt(window, x, y);
+            if (!below.isRival) continue;
+            window.heights[window.index(x, y)] = below.height;
+            window.isRival[window.index(x, y)] = true;
+        }
+    }
+}
+
+VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
     Window window;
     window.block = block;
     read(window);
-    const bool hasData =
-        std::any_of(window.heights.begin(), window.heights.end(), [](double height) { return !std::isnan(height); });
-    if (!hasData) return {};
-    window.sortVoids();
-    std::vector<float> result(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kMissing);
-    bool hasSmall = false;
-    bool hasLarge = false;
+    window.isRival.assign(window.heights.size(), false);
+    findOutside(window);
+    if (_hasRivals) takeRivals(window);
+    const std::vector<GByte> isKnown = window.known();
+    if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
+    const std::vector<float> distances = distancesTo(isKnown, window.posts.width, window.posts.height);
+    window.sortVoids(distances);
+    Block result;
+    bool hasNarrow = false;
+    bool hasWide = false;
+    for (int row = block.row; row < block.row + block.height; ++row) {
+        for (int column = block.column; column < block.column + block.width; ++column) {
+            const std::size_t i = window.index(column - window.posts.column, row - window.posts.row);
+            result.isRival.push_back(window.isRival[i]);
+            result.heights.push_back(window.isRival[i] ? static_cast<float>(window.heights[i]) : kMissing);
+        }
+    }
     window.forMissing(
-        [&](int x, int y, std::size_t) { (window.isLarge[window.index(x, y)] ? hasLarge : hasSmall) = true; });
-    if (hasSmall) interpolateSmall(window, result);
-    if (hasLarge && _coarser) addDifferences(window, result);
+        [&](int x, int y, std::size_t) { (window.isWide[window.index(x, y)] ? hasWide : hasNarrow) = true; });
+    if (hasNarrow) interpolateNarrow(window, result.heights);
+    if (hasWide && _coarser) addDifferences(window, distances, result.heights);
     return result;
 }
 
-void VoidFill::interpolateSmall(const Window& window, std::vector<float>& result) const {
+void VoidFill::interpolateNarrow(const Window& window, std::vector<float>& result) const {
     std::vector<float> values(window.heights.begin(), window.heights.end());
     std::vector<GByte> isKnown(values.size(), 255);
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isnan(values[i])) continue;
-        // Large voids touch no small one, so what they hold is of no account.
+        // Wide voids touch no narrow one, so what they hold is of no account.
         values[i] = 0.0F;
-        if (!window.isLarge[i]) isKnown[i] = 0;
+        if (!window.isWide[i]) isKnown[i] = 0;
     }
-    interpolate(window.posts.width, window.posts.height, values, isKnown, kSmall);
+    interpolate(window.posts.width, window.posts.height, values, isKnown, kNarrow);
     window.forMissing([&](int x, int y, std::size_t i) {
-        if (!window.isLarge[window.index(x, y)]) result[i] = values[window.index(x, y)];
+        if (!window.isWide[window.index(x, y)]) result[i] = values[window.index(x, y)];
     });
 }
 
-double VoidFill::coarserAt(const Window& window, int x, int y) const {
+VoidFill::Below VoidFill::belowAt(const Window& window, int x, int y) const {
     return _coarser(inRaster(window.posts.column + x), window.posts.row + y);
 }
 
-void VoidFill::addDifferences(const Window& window, std::vector<float>& result) const {
+void VoidFill::addDifferences(const Window& window, const std::vector<float>& distances,
+                              std::vector<float>& result) const {
     const int width = window.posts.width;
     const int height = window.posts.height;
     std::vector<float> differences(window.heights.size(), 0.0F);
-    std::vector<GByte> hasData(window.heights.size(), 0);
     const auto isAtRim = [&](int x, int y) {
         for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
             for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
                 if (window.isMissing(u, v)) return true;
         return false;
     };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = window.index(x, y);
-            if (window.isMissing(x, y)) continue;
-            hasData[i] = 255;
-            if (isAtRim(x, y)) differences[i] = static_cast<float>(window.heights[i] - coarserAt(window, x, y));
-        }
-    }
-    const std::vector<float> distances = distancesTo(hasData, width, height);
     // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
-    std::vector<GByte> isKnown(hasData);
+    std::vector<GByte> isKnown = window.known();
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t i = window.index(x, y);
-            const int row = window.posts.row + y;
-            const int column = window.posts.column + x;
-            const bool isOutside =
-                row < 0 || row >= _shape.height || (!_shape.isGlobal && (column < 0 || column >= _shape.width));
-            if (isOutside) isKnown[i] = 255;
-            if (!std::isnan(differences[i])) continue;
-            differences[i] = 0.0F;
-            isKnown[i] = 0;
+            if (window.isOutside[i]) isKnown[i] = 255;
+            if (window.isMissing(x, y) || !isAtRim(x, y)) continue;
+            const double difference = window.heights[i] - belowAt(window, x, y).height;
+            if (std::isnan(difference))
+                isKnown[i] = 0;
+            else
+                differences[i] = static_cast<float>(difference);
         }
     }
     interpolate(width, height, differences, isKnown, kReach);
     window.forMissing([&](int x, int y, std::size_t i) {
         const std::size_t j = window.index(x, y);
-        if (!window.isLarge[j] || distances[j] >= kReach) return;
-        const double coarser = coarserAt(window, x, y);
+        if (!window.isWide[j] || distances[j] >= kReach) return;
+        const double coarser = belowAt(window, x, y).height;
         const double onLand = fade(distances[j], 0.5 * kReach, kReach);
         const double inSea = fade(distances[j], 0.0, kSeaReach);
         const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));

@@ -9,6 +9,8 @@
 #include <osg/CoordinateSystemNode>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace osgAnalyticBin::paper {
 
@@ -18,10 +20,10 @@ namespace {
 
 using support::kDegreesPerRadian;
 
-osgbindem::DemOptions optionsFor(const std::string& dem) {
-    osgbindem::DemOptions options;
-    options.raster.path = dem;
-    return options;
+std::unique_ptr<osgbindem::RasterLayer> layerOf(const std::string& dem) {
+    osgbindem::RasterOptions options;
+    options.path = dem;
+    return std::move(osgbindem::RasterLayer::layersOf({options}).front());
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ core::Ellipsoid wgs84() {
 
 Terrain::Terrain(const std::string& dem, int deepestLevel, double floor, Progress& progress)
     : _ellipsoid(wgs84()),
-      _source(optionsFor(dem)),
+      _source(layerOf(dem)),
       _floor(floor),
       _pyramid(
           deepestLevel, [this](const TileId& tile) { return range(tile); },
@@ -42,7 +44,8 @@ Terrain::Terrain(const std::string& dem, int deepestLevel, double floor, Progres
               progress.show("heights", static_cast<std::size_t>(done), TileId::kStartColumns * TileId::kStartRows);
               _source.prefetch(start.rect());
           }) {
-    if (!_source.hasAnyData()) throw Failure("no heights in \"" + dem + "\", only missing data");
+    const osgbindem::RasterFile& file = *_source.layer().members().front().file;
+    if (!file.hasHeights(file.look())) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
 core::Interval Terrain::range(const TileId& tile) {
@@ -58,7 +61,8 @@ osgbindem::RectDeg Terrain::extent() const noexcept {
 }
 
 double Terrain::height(const osgbindem::PositionDeg& position) {
-    return std::max(_source.height(position).value_or(0.0), _floor);
+    const auto found = _source.height(position);
+    return std::max(found ? found->metres : 0.0, _floor);
 }
 
 core::Geodetic Terrain::onSurface(const core::Geodetic& position) {

@@ -14,24 +14,26 @@
 #include <Failure.h>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
 
 constexpr const char* kFile = "/vsimem/fuzz.asc";
 
-void tryRaster(const osgbindem::DemOptions& options) {
-    osgbindem::DemSource source(options);
+void tryRaster(const osgbindem::RasterOptions& options) {
+    osgbindem::DemSource source(std::move(osgbindem::RasterLayer::layersOf({options}).front()));
     for (const double latitude : {-90.0, -0.5, 0.0, 12.25, 90.0}) {
         for (const double longitude : {-180.0, -0.5, 0.0, 33.5, 180.0}) {
             osgbindem::PositionDeg position{};
             position.latitudeDeg = latitude;
             position.longitudeDeg = longitude;
             const auto height = source.height(position);
-            osgAnalyticBin::test::require(!height || std::isfinite(*height));
+            osgAnalyticBin::test::require(!height || std::isfinite(height->metres));
         }
     }
-    (void)source.hasAnyData();
+    const osgbindem::RasterFile& file = *source.layer().members().front().file;
+    (void)file.hasHeights(file.look());
 }
 
 }  // namespace
@@ -43,10 +45,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CPLSetErrorHandler(CPLQuietErrorHandler);
     std::vector<GByte> bytes(data + 2, data + size);
     VSIFCloseL(VSIFileFromMemBuffer(kFile, bytes.data(), bytes.size(), FALSE));
-    osgbindem::DemOptions options;
-    options.raster.path = kFile;
+    osgbindem::RasterOptions options;
+    options.path = kFile;
     options.metresPerUnit = std::ldexp(1.0, data[0] % 64 - 32);
-    if (data[1] % 2 == 1) options.raster.nodata = data[1];
+    if (data[1] % 2 == 1) options.nodata = data[1];
     try {
         tryRaster(options);
     } catch (const osgAnalyticBin::support::Failure& failure) {

@@ -74,6 +74,40 @@ TEST_F(Error, TruncatedRasterOfText) {
     expectBadDem(file("short.asc"), "short.asc");
 }
 
+// HDF5 prints a stack of its own, which is not for users.
+TEST_F(Error, TruncatedRasterOfHdf5) {
+    std::ofstream file(this->file("short.h5"), std::ios::binary);
+    file << "\x89HDF\r\n\x1a\n" << std::string("\0\0\0\0\0\x08\x08\0\x04\0\x10\0\0\0\0\0", 16) << std::string(40, '\0');
+    file.close();
+    expectBadDem(this->file("short.h5"), "short.h5");
+}
+
+TEST_F(Error, BandsAndOptionsOfGdal) {
+    expectError({good(), "-b", "2", "-o", output()}, "no band 2");
+    expectUsageError({good(), "-b", "0", "-o", output()}, "--band");
+    expectUsageError({good(), "-o", output(), "--config", "GDAL_CACHEMAX"}, "--config");
+    build({good(), "-o", output(), "--config", "GDAL_CACHEMAX", "100", "--config", "GDAL_NUM_THREADS", "1", "--levels",
+           "0", "--cells", "4"});
+}
+
+TEST_F(Error, PixelsLargerThanAGlobe) {
+    TestRaster(-500.0, 80.0, 900.0, 1.0, 2, 2, hills).write(file("wide.tif"));
+    expectBadDem(file("wide.tif"), "larger than a globe");
+}
+
+TEST_F(Error, HeightsThatAreDistancesFromTheMiddle) {
+    TestRaster moon = TestRaster::globe(5.0, [](double, double) { return 1.0; });
+    moon.setReference("+proj=longlat +R=1737400 +no_defs");
+    moon.write(file("moon.tif"));
+    GDALDataset* dataset = GDALDataset::Open(file("moon.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+    dataset->GetRasterBand(1)->SetOffset(1737400.0);
+    GDALClose(GDALDataset::ToHandle(dataset));
+    expectBadDem(file("moon.tif"), "--radii");
+    // The moon and the earth are no globe together.
+    moon.write(file("moon.tif"));
+    expectError({good(), file("moon.tif"), "-o", output()}, "--radii 1737400 1737400");
+}
+
 TEST_F(Error, RasterWithoutGeoreferencing) {
     GDALAllRegister();
     GDALClose(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file("plain.tif").c_str(), 10, 10, 1,
@@ -203,7 +237,44 @@ TEST(Progress, IsShownUnlessQuiet) {
     TestRaster::globe(5.0, hills).write(folder.file("globe.tif"));
     const Outcome outcome = run({folder.file("globe.tif"), "--cells", "4", "-o", folder.file("earth.osgb")});
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_EQ(outcome.output, "0...10...20...30...40...50...60...70...80...90...100 - done.\n");
+    EXPECT_EQ(outcome.output.rfind("0...10...20...30...40...50...60...70...80...90...100 - done.\n", 0), 0U)
+        << outcome.output;
+}
+
+TEST(Summary, TellsWhatWasBuiltAndWhatIsMissing) {
+    const TempFolder folder;
+    // Post by post as those of the start tiles, with one summit, one void and an empty southern hemisphere.
+    TestRaster raster(-180.0, 90.0, 22.5 / 24.0, 22.5 / 24.0, 384, 97, [](double latitude, double longitude) {
+        if (latitude == 45.0 && longitude == 90.0) return 3210.0;
+        return latitude == 22.5 && longitude == -90.0 ? std::nan("") : 100.0;
+    });
+    raster.setNodata(-9999.0);
+    raster.write(folder.file("north.tif"));
+    const Outcome outcome = run({folder.file("north.tif"), "-o", folder.file("earth.osgb")});
+    EXPECT_EQ(outcome.exitCode, 0);
+    for (const char* word :
+         {"128 tiles in levels 0 to 0, 1 files", "heights from 100.0 m (", "to 3210.0 m (45.0000 N, 90.0000 E)",
+          "1 are filled voids", "of 73728 posts", "36864 are at 0 m"}) {
+        EXPECT_NE(outcome.output.find(word), std::string::npos) << word << " in " << outcome.output;
+    }
+    EXPECT_NE(outcome.errors.find("no raster has data for 36864 of 73728 posts"), std::string::npos) << outcome.errors;
+    build({folder.file("north.tif"), "-o", folder.file("earth.osgb"), "--overwrite"});
+}
+
+TEST(Summary, NamesMarksUnitsAndVerticalReferences) {
+    const TempFolder folder;
+    TestRaster raster =
+        TestRaster::globe(5.0, [](double latitude, double) { return latitude > 80.0 ? -99999.0 : 328.0; });
+    raster.setReference("EPSG:4326+6360");
+    raster.write(folder.file("globe.tif"));
+    const Outcome outcome =
+        run({folder.file("globe.tif"), "--geoid", "egm96", "--levels", "0", "-o", folder.file("earth.osgb")});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    for (const char* word :
+         {"144 posts with numbers like -99999, which no terrain has (where they are heights, see --height-unit)",
+          "0.30480061 m", "above the geoid EGM96"}) {
+        EXPECT_NE(outcome.output.find(word), std::string::npos) << word << " in " << outcome.output;
+    }
 }
 
 }  // namespace

@@ -75,6 +75,25 @@ TEST_F(Geoid, IsReadFromTheRastersReference) {
     EXPECT_EQ(ellipsoidal.height({0.0, 0.0}), 100.0);
 }
 
+TEST_F(Geoid, IsAddedOnceToMapProjections) {
+    // The geoid is 28.7 m below the ellipsoid in the middle.
+    TestRaster raster(600500.0, 3700500.0, 1000.0, 1000.0, 60, 60, [](double, double) { return 5000.0; });
+    raster.setReference("EPSG:32614+5773");
+    raster.write(file("metres.tif"));
+    const osgbindem::PositionDeg middle{33.162, -97.613};
+    EXPECT_NEAR(DemMosaic(settingsFor({file("metres.tif")})).height(middle), 4971.3, 0.1);
+    EXPECT_NEAR(DemMosaic(settingsFor({file("metres.tif")}, "egm96")).height(middle), 4971.3, 0.1);
+    EXPECT_NEAR(DemMosaic(settingsFor({file("metres.tif")}, "none")).height(middle), 5000.0, 1e-6);
+    // Texas and heights, both in feet of the US survey; the user's word counts more than the raster's.
+    TestRaster feet(2300500.0, 7000500.0, 1000.0, 1000.0, 60, 60, [](double, double) { return 5000.0; });
+    feet.setReference("EPSG:2276+6360");
+    feet.write(file("feet.tif"));
+    Settings settings = settingsFor({file("feet.tif")}, "none");
+    EXPECT_NEAR(DemMosaic(settings).height({32.7835, -97.3237}), 5000.0 * 1200.0 / 3937.0, 1e-6);
+    settings.dems.front().metresPerUnit = 0.1;
+    EXPECT_NEAR(DemMosaic(settings).height({32.7835, -97.3237}), 500.0, 1e-6);
+}
+
 TEST_F(Geoid, WithoutItsGridIsRefused) {
     // No package of Debian has the grid of the Dutch NAP.
     globe("globe.tif", "EPSG:4326+5709");

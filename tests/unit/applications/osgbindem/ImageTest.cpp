@@ -8,9 +8,11 @@
 #include "Program.h"
 #include "TestImage.h"
 
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 
@@ -82,6 +84,58 @@ TEST_F(Images, TexturesThatShowReliefAreAsFineAsItsPosts) {
     build({file("globe.tif"), "--cells", "64", "--levels", "1", "--image", coarse, "-o", file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(file("earth.osgb"));
     EXPECT_EQ(textureOf(database.leafAt(48.5, 11.5))->s(), 64);
+}
+
+TEST_F(Images, OfAnyTypeAndOrderOfBandsHaveTheirColours) {
+    GDALAllRegister();
+    const std::array<double, 3> colour{200.0, 100.0, 50.0};
+    const auto write = [&](GDALDataType type, double brightest, const std::array<int, 3>& order) {
+        GDALDataset* dataset =
+            GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file("any.tif").c_str(), 60, 60, 3, type, nullptr);
+        double transform[6] = {10.0, 0.1, 0.0, 50.0, 0.0, -0.1};
+        dataset->SetGeoTransform(transform);
+        for (int i = 0; i < 3; ++i) {
+            GDALRasterBand& band = *dataset->GetRasterBand(i + 1);
+            const int channel = order[static_cast<std::size_t>(i)];
+            band.SetColorInterpretation(static_cast<GDALColorInterp>(GCI_RedBand + channel));
+            band.Fill(colour[static_cast<std::size_t>(channel)] / 255.0 * brightest);
+        }
+        GDALClose(GDALDataset::ToHandle(dataset));
+        return file("any.tif");
+    };
+    const Colour expected{200, 100, 50};
+    for (const auto& [type, brightest] :
+         {std::pair{GDT_Byte, 255.0}, std::pair{GDT_UInt16, 65535.0}, std::pair{GDT_Float32, 1.0}}) {
+        for (const std::array<int, 3>& order : {std::array{0, 1, 2}, std::array{2, 1, 0}}) {
+            expectNear(shownAt(built({write(type, brightest, order)}), 47.5, 13.5), expected, 1);
+        }
+    }
+    const Outcome outcome = run(command("earth.osgb", {write(GDT_Float32, 1e6, {0, 1, 2})}, {"--overwrite"}));
+    EXPECT_NE(outcome.errors.find("-ot Byte -scale"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(Images, TilesOfAMapProjectionHaveNoSeams) {
+    GDALAllRegister();
+    Words images;
+    for (int i = 0; i < 4; ++i) {
+        images.push_back(file("tile" + std::to_string(i) + ".tif"));
+        GDALDataset* dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(images.back().c_str(), 50, 50,
+                                                                                        3, GDT_Byte, nullptr);
+        double transform[6] = {600000.0 + 250000.0 * (i % 2),  5000.0, 0.0,
+                               5600000.0 + 250000.0 * (i / 2), 0.0,    -5000.0};
+        dataset->SetGeoTransform(transform);
+        OGRSpatialReference reference;
+        reference.importFromEPSG(32632);
+        dataset->SetSpatialRef(&reference);
+        for (int band = 1; band <= 3; ++band) dataset->GetRasterBand(band)->Fill(255.0);
+        GDALClose(GDALDataset::ToHandle(dataset));
+    }
+    const LoadedDatabase database = built(images);
+    for (double latitude = 49.5; latitude < 51.5; latitude += 0.07) {
+        for (double longitude = 12.5; longitude < 15.0; longitude += 0.07) {
+            EXPECT_EQ(shownAt(database, latitude, longitude), (Colour{255, 255, 255})) << latitude << ' ' << longitude;
+        }
+    }
 }
 
 TEST_F(Images, HolesShowWhatLiesBelow) {

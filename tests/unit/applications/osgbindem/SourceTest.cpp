@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <osg/Texture2D>
 
+#include <filesystem>
+
 namespace {
 
 double north(double latitudeDeg, double) {
@@ -230,6 +232,129 @@ TEST(Source, ProjectedRastersAreWarpedAndTheirPeaksKept) {
     EXPECT_LT(highest, 3001.0);
     // 450 km east, 5550 km north in the zone: 50.097 N, 8.301 E.
     EXPECT_GE(database.leafAt(50.0973, 8.3011).bin.bin().altitude().upper, 3000.0);
+    checkSharedPosts(database);
+}
+
+namespace {
+
+/// A plain at 1500 m in degrees or in a map projection, with a square of another number in the middle.
+TestRaster plainWith(double number, bool isMap) {
+    const double scale = isMap ? 100.0 : 0.01;
+    const double x = isMap ? 600050.0 : 10.005;
+    const double y = isMap ? 5599950.0 : 49.995;
+    TestRaster raster(x, y, scale, scale, 100, 100, [=](double north, double east) {
+        const double away = std::max(std::abs(north - y + 50.0 * scale), std::abs(east - x - 50.0 * scale));
+        return away < 5.5 * scale ? number : 1500.0;
+    });
+    raster.setReference(isMap ? "EPSG:25832" : "EPSG:4326");
+    return raster;
+}
+
+/// Expects the plain without anything in it.
+void expectPlain(const TempFolder& folder, const std::string& path, bool isMap) {
+    build({path, "--overwrite", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const double latitudeDeg = isMap ? 50.4902 : 49.495;
+    const double longitudeDeg = isMap ? 10.4803 : 10.505;
+    for (int i = -8; i <= 8; ++i) {
+        const double step = isMap ? 0.001 : 0.01;
+        EXPECT_NEAR(database.altitudeAt(latitudeDeg + i * step, longitudeDeg), 1500.0, 0.2) << path << ' ' << i;
+        EXPECT_NEAR(database.altitudeAt(latitudeDeg, longitudeDeg + i * step), 1500.0, 0.2) << path << ' ' << i;
+    }
+}
+
+}  // namespace
+
+TEST(Source, VoidsByMasksAndByNumbersThatNoTerrainHas) {
+    const TempFolder folder;
+    GDALAllRegister();
+    const std::string path = folder.file("plain.tif");
+    for (const bool isMap : {false, true}) {
+        for (const double number : {1e6, -999999.0, -99999.0, -32768.0}) {
+            plainWith(number, isMap).write(path);
+            expectPlain(folder, path, isMap);
+        }
+        plainWith(0.0, isMap).write(path);
+        GDALDataset* dataset = GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+        std::vector<double> heights(10000);
+        ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 100, 100, heights.data(), 100, 100, GDT_Float64, 0,
+                                                      0, nullptr),
+                  CE_None);
+        for (double& height : heights) height = height > 0.0 ? 255.0 : 0.0;
+        dataset->CreateMaskBand(GMF_PER_DATASET);
+        ASSERT_EQ(dataset->GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Write, 0, 0, 100, 100, heights.data(), 100, 100,
+                                                                     GDT_Float64, 0, 0, nullptr),
+                  CE_None);
+        GDALClose(GDALDataset::ToHandle(dataset));
+        expectPlain(folder, path, isMap);
+        std::filesystem::remove(path + ".msk");
+    }
+}
+
+TEST(Source, UnitsThatBandsDeclare) {
+    const TempFolder folder;
+    GDALAllRegister();
+    const std::string path = folder.file("feet.tif");
+    for (const bool isMap : {false, true}) {
+        plainWith(1500.0, isMap).write(path);
+        const auto declare = [&](const char* unit) {
+            GDALDataset* dataset = GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+            dataset->GetRasterBand(1)->SetUnitType(unit);
+            GDALClose(GDALDataset::ToHandle(dataset));
+        };
+        declare("ft");
+        build({path, "--overwrite", "-o", folder.file("earth.osgb")});
+        EXPECT_NEAR(
+            loadDatabase(folder.file("earth.osgb")).altitudeAt(isMap ? 50.4902 : 49.495, isMap ? 10.4803 : 10.505),
+            457.2, 0.1);
+        declare("counts");
+        EXPECT_NE(run({path, "--overwrite", "-o", folder.file("earth.osgb")}).errors.find("give --height-unit"),
+                  std::string::npos);
+    }
+}
+
+TEST(Source, OtherBodiesHaveTheRadiiThatTheirRastersDeclare) {
+    const TempFolder folder;
+    TestRaster moon = TestRaster::globe(5.0, [](double, double) { return 1000.0; });
+    moon.setReference("+proj=longlat +R=1737400 +no_defs");
+    moon.write(folder.file("moon.tif"));
+    TestRaster map(-5457450.0, 2728650.0, 151600.0, 151600.0, 72, 36, [](double, double) { return 1000.0; });
+    map.setReference("+proj=eqc +R=1737400 +no_defs");
+    map.write(folder.file("map.tif"));
+    for (const char* name : {"moon.tif", "map.tif"}) {
+        build({folder.file(name), "--levels", "0", "--overwrite", "-o", folder.file("moon.osgb")});
+        const LoadedDatabase database = loadDatabase(folder.file("moon.osgb"));
+        EXPECT_EQ(database.ellipsoid().equatorialRadius(), 1737400.0);
+        EXPECT_EQ(database.ellipsoid().polarRadius(), 1737400.0);
+        EXPECT_NEAR(database.altitudeAt(22.5, 22.5), 1000.0, 0.3) << name;
+    }
+}
+
+TEST(Source, TheBandThatIsNamedCounts) {
+    const TempFolder folder;
+    GDALAllRegister();
+    GDALDataset* dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(folder.file("two.tif").c_str(), 72,
+                                                                                    36, 2, GDT_Float32, nullptr);
+    double transform[6] = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
+    dataset->SetGeoTransform(transform);
+    dataset->GetRasterBand(1)->Fill(100.0);
+    dataset->GetRasterBand(2)->Fill(700.0);
+    GDALClose(GDALDataset::ToHandle(dataset));
+    build({folder.file("two.tif"), "-b", "2", "--levels", "0", "-o", folder.file("earth.osgb")});
+    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 700.0, 0.3);
+    const Outcome outcome =
+        run({folder.file("two.tif"), "--levels", "0", "--overwrite", "-o", folder.file("earth.osgb")});
+    EXPECT_NE(outcome.output.find("band 1 of 2"), std::string::npos) << outcome.output;
+    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 100.0, 0.3);
+}
+
+TEST(Source, RastersOfCentimetresAreDeepAndSmall) {
+    const TempFolder folder;
+    TestRaster(1.0, 2.0, 4.5e-7, 4.5e-7, 20, 20, [](double, double) { return 500.0; }).write(folder.file("fine.tif"));
+    build({folder.file("fine.tif"), "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    EXPECT_EQ(database.deepestLevel(), 20);
+    EXPECT_NEAR(database.altitudeAt(2.0 - 4e-6, 1.0 + 4e-6), 500.0, 0.1);
     checkSharedPosts(database);
 }
 

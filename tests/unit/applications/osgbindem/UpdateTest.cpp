@@ -146,6 +146,26 @@ TEST_F(Update, VoidsAreFilledAnewWhereARasterBelowThemChanges) {
     EXPECT_GT(expectSame({inset("fine"), "--levels", "4"}), 0);
 }
 
+TEST_F(Update, TilesOfAMapProjectionThatAreAddedAndReplaced) {
+    const auto write = [this](const std::string& name, double x, double y, double lift) {
+        TestRaster tile(x, y, 500.0, 500.0, 60, 60, [=](double north, double east) {
+            return 1000.0 + lift + 300.0 * std::sin(north / 4000.0) * std::cos(east / 3000.0);
+        });
+        tile.setReference("EPSG:25833");
+        tile.write(inset(name));
+        return inset(name);
+    };
+    const std::string first = write("first", 600250.0, 6000250.0, 0.0);
+    const std::string beside = write("beside", 630250.0, 6000250.0, 0.0);
+    const std::string south = write("south", 600250.0, 5970250.0, 0.0);
+    built("old", {first, "--levels", "6"});
+    expectSame({first, beside, "--levels", "6"});
+    expectSame({first, beside, south, "--levels", "6"});
+    (void)write("beside", 630250.0, 6000250.0, 100.0);
+    expectSame({first, beside, south, "--levels", "6"});
+    expectSame({first, south, "--levels", "6"});
+}
+
 TEST_F(Update, ImagesThatAreAddedReplacedOrTakenAway) {
     const auto write = [this](const std::string& name, double west, double spacingDeg, const Colour& colour) {
         TestImage::square(west, 50.0, spacingDeg, 60, colour).write(folder.file(name));

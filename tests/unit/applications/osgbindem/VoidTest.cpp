@@ -137,8 +137,7 @@ protected:
     [[nodiscard]] std::string fine() const { return _folder.file("fine.tif"); }
     [[nodiscard]] std::string coarse() const { return _folder.file("coarse.tif"); }
 
-private:
-    TempFolder _folder;
+    const TempFolder _folder;
 };
 
 TEST_F(Voids, SmallOnesAreInterpolatedWithoutAnotherRaster) {
@@ -220,6 +219,45 @@ TEST_F(Voids, HaveNoSeamBetweenBlocks) {
                             mosaic.height(grid.position(column - 1, along)));
         };
         EXPECT_LE(step(256), 2.0 * std::max(step(255), step(257)) + 2.0) << along;
+    }
+}
+
+TEST_F(Voids, LongOnesAreAsWideAsTheyAreNarrow) {
+    Grid grid = gridOf(hills, 400, 0.01);
+    grid.cut([](int column, int row) { return column == 200 || row == column / 2 + 20; });
+    grid.write(fine());
+    TestRaster::globe(0.5, [](double, double) { return -2000.0; }).write(coarse());
+    DemMosaic mosaic(settingsFor({coarse(), fine()}));
+    EXPECT_GT(expectFilled(grid, mosaic), 700);
+}
+
+TEST_F(Voids, DataOfOneRasterWinsOverFillsOfTheOther) {
+    // What one has the other lacks; both of one grid, and of two whose posts lie between each other's.
+    const auto isWest = [](int column, int row) { return column + row / 3 < 260; };
+    Grid west = gridOf(hills, 400, 0.01);
+    Grid east = west;
+    west.cut([&](int column, int row) { return !isWest(column, row); });
+    east.cut(isWest);
+    west.write(fine());
+    TestRaster::globe(0.5, [](double, double) { return -2000.0; }).write(coarse());
+    for (const double shift : {0.0, 0.4}) {
+        east.west = west.west + shift * east.spacing;
+        for (int row = 0; row < 400; ++row)
+            for (int column = 0; column < 400; ++column)
+                if (!isWest(column, row))
+                    east.heights[east.index(column, row)] = hills(50.0 - row * 0.01, east.west + column * 0.01);
+        east.write(_folder.file("east.tif"));
+        for (const auto& rasters :
+             {std::vector{fine(), _folder.file("east.tif")}, std::vector{coarse(), fine(), _folder.file("east.tif")}}) {
+            DemMosaic mosaic(settingsFor(rasters));
+            for (int row = 5; row < 395; ++row) {
+                const int column = 260 - row / 3;
+                for (int away = -20; away <= 20; away += 4) {
+                    const PositionDeg position = west.position(column + away, row);
+                    EXPECT_NEAR(mosaic.height(position), hills(position.latitudeDeg, position.longitudeDeg), 12.0);
+                }
+            }
+        }
     }
 }
 

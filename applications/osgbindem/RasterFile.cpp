@@ -1,0 +1,655 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "RasterFile.h"
+
+#include "Failure.h"
+#include "HeightDataset.h"
+#include "Interruption.h"
+
+#include <cpl_string.h>
+#include <gdal_alg.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <dlfcn.h>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
+
+namespace {
+
+// An overview's posts are not exactly twice as far apart when the raster has an odd number of them.
+constexpr double kSlack = 1e-3;
+
+// Metres beyond which no terrain of the earth lies, and none of any other body.
+constexpr double kHighestOnEarth = 12000.0;
+constexpr double kHighest = 1e5;
+
+const OGRSpatialReference& wgs84() {
+    static thread_local const OGRSpatialReference reference = [] {
+        OGRSpatialReference r;
+        r.importFromEPSG(4326);
+        r.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        return r;
+    }();
+    return reference;
+}
+
+// Drivers of text that find a row by reading those above it. GDAL tries rows that cannot be read anew for each row
+// below: 2^rows times in a file that was cut short, unless it is read from the top.
+bool isRowsOfText(GDALDataset& dataset) {
+    const std::array<std::string_view, 3> drivers{"AAIGrid", "GRASSASCIIGrid", "ISG"};
+    const GDALDriver* driver = dataset.GetDriver();
+    return driver != nullptr && std::find(drivers.begin(), drivers.end(), driver->GetDescription()) != drivers.end();
+}
+
+void requireAllRows(GDALDataset& dataset, const std::string& path) {
+    for (int row = 0; row < dataset.GetRasterYSize(); ++row) {
+        throwIfStopRequested();
+        double post = 0.0;
+        const CPLErr error =
+            dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, row, 1, 1, &post, 1, 1, GDT_Float64, 0, 0, nullptr);
+        if (error != CE_None) throw Failure("cannot read \"" + path + "\": " + gdalMessage());
+    }
+}
+
+/// Has HDF5, which GDAL loads, keep what it prints of each error; in each thread by itself.
+void silenceHdf5() {
+    using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
+    if (void* setAuto = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(setAuto)(0, nullptr, nullptr);
+}
+
+/// `overview`: its number, or -1 for the raster itself.
+GdalDataset opened(const std::string& path, int overview = -1) {
+    silenceHdf5();
+    CPLStringList words;
+    if (overview >= 0) words.SetNameValue("OVERVIEW_LEVEL", std::to_string(overview).c_str());
+    GdalDataset dataset(
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.List(), nullptr));
+    if (!dataset) {
+        // GDAL has names that are no files, so the file system is asked only afterwards.
+        const std::string reason =
+            mayExist(path) ? gdalMessage() + "; give a raster file" : "no such file; check the name";
+        throw Failure("cannot open \"" + path + "\": " + reason);
+    }
+    if (dataset->GetRasterCount() == 0) {
+        throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
+    }
+    if (isRowsOfText(*dataset)) requireAllRows(*dataset, path);
+    return dataset;
+}
+
+// Without a reference system, degrees are recognised by their range.
+bool looksLikeDegrees(const GeoTransform& t, int width, int height) {
+    const double east = t[0] + width * t[1];
+    const double other = t[3] + height * t[5];
+    return t[1] > 0.0 && t[0] >= -361.0 && east <= 721.0 && east - t[0] <= 361.0 &&
+           std::abs(t[3]) <= 90.0 + std::abs(t[5]) && std::abs(other) <= 90.0 + std::abs(t[5]);
+}
+
+bool isUnturned(const GeoTransform& t) {
+    return t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
+}
+
+// Whether all corners are at numbers that coordinates may be; GDAL brings degrees into range turn by turn.
+bool isPlausible(const GeoTransform& t, GDALDataset& dataset) {
+    constexpr double kMostDegrees = 1e4;
+    constexpr double kMostUnits = 1e11;  // of a length, be it millimetres
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    const double most = reference != nullptr && reference->IsGeographic() ? kMostDegrees : kMostUnits;
+    for (const double column : {0.0, static_cast<double>(dataset.GetRasterXSize())}) {
+        for (const double row : {0.0, static_cast<double>(dataset.GetRasterYSize())}) {
+            const double x = t[0] + column * t[1] + row * t[2];
+            const double y = t[3] + column * t[4] + row * t[5];
+            if (!(std::abs(x) <= most && std::abs(y) <= most)) return false;
+        }
+    }
+    return true;
+}
+
+void requireGeoreferencing(GDALDataset& dataset, const std::string& path) {
+    GeoTransform transform{};
+    const bool hasTransform = dataset.GetGeoTransform(transform.data()) == CE_None;
+    const bool hasControlPoints = dataset.GetGCPCount() > 0 && dataset.GetGCPSpatialRef() != nullptr;
+    if (!hasTransform && !hasControlPoints) {
+        throw Failure("no georeferencing in \"" + path + "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
+    }
+    if (!hasTransform) return;
+    if (!isPlausible(transform, dataset)) {
+        throw Failure("the coordinates of \"" + path + "\" are far from any globe; correct its georeferencing");
+    }
+    if (dataset.GetSpatialRef() == nullptr &&
+        (!isUnturned(transform) || !looksLikeDegrees(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()))) {
+        throw Failure("no reference system in \"" + path +
+                      "\", and its coordinates are not degrees; add one, for example with gdal_edit.py -a_srs");
+    }
+}
+
+const OGRSpatialReference* referenceOf(GDALDataset& dataset) {
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    return reference != nullptr ? reference : dataset.GetGCPSpatialRef();
+}
+
+bool isOfEarth(const OGRSpatialReference& reference) {
+    constexpr double kMost = 0.01;  // spheres and ellipsoids of the earth differ by less
+    return std::abs(reference.GetSemiMajor() / wgs84().GetSemiMajor() - 1.0) < kMost;
+}
+
+OGRSpatialReference horizontalOf(const OGRSpatialReference& reference) {
+    OGRSpatialReference horizontal(reference);
+    horizontal.StripVertical();
+    horizontal.DemoteTo2D(nullptr);
+    horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return horizontal;
+}
+
+std::string verticalOf(const OGRSpatialReference& reference) {
+    if (reference.IsCompound() == 0) return {};
+    const OGR_SRSNode* vertical = reference.GetAttrNode("VERT_CS");
+    if (vertical == nullptr) vertical = reference.GetAttrNode("VERTCRS");
+    if (vertical == nullptr || vertical->GetChildCount() == 0) return {};
+    char* text = nullptr;
+    vertical->exportToWkt(&text);
+    std::string result(text);
+    CPLFree(text);
+    return result;
+}
+
+/// What the raster says of its unit; nullopt for units that are no length.
+std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpatialReference* reference) {
+    std::string unit = band.GetUnitType();
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (unit.empty()) {
+        const bool isCompound = reference != nullptr && reference->IsCompound() != 0;
+        return isCompound ? reference->GetTargetLinearUnits("VERT_CS") : 1.0;
+    }
+    struct Unit {
+        const char* start;
+        double metres;
+    };
+    constexpr double kFoot = 0.3048;
+    constexpr double kSurveyFoot = 1200.0 / 3937.0;
+    for (const Unit& known : {Unit{"us survey f", kSurveyFoot}, Unit{"us_survey_f", kSurveyFoot},
+                              Unit{"ftus", kSurveyFoot}, Unit{"us-ft", kSurveyFoot}, Unit{"foot_us", kSurveyFoot},
+                              Unit{"ft", kFoot}, Unit{"f", kFoot}, Unit{"international f", kFoot}, Unit{"km", 1000.0},
+                              Unit{"kilomet", 1000.0}, Unit{"cm", 0.01}, Unit{"centimet", 0.01}, Unit{"dm", 0.1},
+                              Unit{"decimet", 0.1}, Unit{"mm", 0.001}, Unit{"millimet", 0.001}, Unit{"met", 1.0}}) {
+        if (unit.rfind(known.start, 0) == 0) return known.metres;
+    }
+    return unit == "m" ? std::optional(1.0) : std::nullopt;
+}
+
+GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& band) {
+    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
+        GDALRasterBand* other = dataset.GetRasterBand(i);
+        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) return other;
+    }
+    return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0 ? nullptr : band.GetMaskBand();
+}
+
+/// The band with the heights; `notes` get a word when it is one of several.
+GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, std::vector<std::string>& notes) {
+    const int count = file.GetRasterCount();
+    const int number = options.band.value_or(1);
+    if (number > count) {
+        throw Failure("no band " + std::to_string(number) + " in \"" + options.path + "\", which has " +
+                      std::to_string(count) + "; see --band");
+    }
+    GDALRasterBand& band = *file.GetRasterBand(number);
+    int others = 0;
+    for (int i = 1; i <= count; ++i) {
+        if (i != number && file.GetRasterBand(i)->GetColorInterpretation() != GCI_AlphaBand) ++others;
+    }
+    if (others > 0 && !options.band) {
+        const std::string name = band.GetDescription();
+        notes.push_back("band " + std::to_string(number) + " of " + std::to_string(count) +
+                        (name.empty() ? name : ", \"" + name + "\",") + " has the heights; see --band");
+    }
+    return band;
+}
+
+GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference* horizontal,
+                      std::vector<std::string>& notes) {
+    GDALRasterBand& band = heightBandOf(file, options, notes);
+    HeightCode code;
+    int hasNodata = 0;
+    const double nodata = band.GetNoDataValue(&hasNodata);
+    if (hasNodata != 0) code.nodata = nodata;
+    if (options.nodata) code.nodata = options.nodata;
+    const OGRSpatialReference* reference = referenceOf(file);
+    const auto declared = declaredMetresPerUnit(band, reference);
+    if (!declared && !options.metresPerUnit) {
+        throw Failure("heights of \"" + options.path + "\" are in \"" + band.GetUnitType() +
+                      "\", which is no length that is known; give --height-unit");
+    }
+    const double metres = options.metresPerUnit.value_or(declared.value_or(1.0));
+    if (!options.metresPerUnit && metres != 1.0) {
+        notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
+    }
+    code.scale = band.GetScale() * metres;
+    code.offset = band.GetOffset() * metres;
+    const double radius = reference != nullptr ? reference->GetSemiMajor() : wgs84().GetSemiMajor();
+    if (code.offset > 0.5 * radius) {
+        throw Failure("heights of \"" + options.path +
+                      "\" are distances from the middle of the body, with an offset of " +
+                      std::string(CPLSPrintf("%.9g", code.offset)) +
+                      " m; take it away with gdal_edit.py -offset 0, and see --radii");
+    }
+    // A user's factor may exaggerate heights.
+    const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
+    code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
+    code.mask = maskOf(file, band);
+    return GdalDataset(new HeightDataset(band, code, horizontal));
+}
+
+/// Numbers of the bands in the order red, green, blue, alpha, or grey, alpha.
+std::vector<int> colourBands(GDALDataset& file) {
+    const int count = file.GetRasterCount();
+    const auto bandOf = [&](GDALColorInterp colour) {
+        for (int i = 1; i <= count; ++i)
+            if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
+        return 0;
+    };
+    std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    const int alpha = bandOf(GCI_AlphaBand);
+    if (std::count(bands.begin(), bands.end(), 0) > 0) {
+        const int colours = alpha == 0 ? count : alpha - 1;
+        bands = colours >= 3 ? std::vector{1, 2, 3} : std::vector{std::max(1, bandOf(GCI_GrayIndex))};
+    }
+    if (alpha != 0) bands.push_back(alpha);
+    return bands;
+}
+
+/// The number that is shown at full brightness: the end of the usual range that holds the highest one.
+double brightest(GDALDataset& file, const std::vector<int>& bands, const std::string& path) {
+    double highest = 0.0;
+    for (const int number : bands) {
+        std::array<double, 2> range{};
+        GDALRasterBand& band = *file.GetRasterBand(number);
+        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) highest = std::max(highest, range[1]);
+    }
+    const bool isWhole = GDALDataTypeIsInteger(file.GetRasterBand(bands.front())->GetRasterDataType()) != 0;
+    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
+        if (highest <= end && (end > 1.0 || !isWhole)) return end;
+    }
+    throw Failure("colours of \"" + path + "\" reach " + std::string(CPLSPrintf("%.9g", highest)) +
+                  "; bring them to bytes, for example with gdal_translate -ot Byte -scale");
+}
+
+/// Colours as bytes; an empty pointer where the file has them so.
+GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
+    CPLStringList words(CSLTokenizeString("-of VRT -ot Byte"));
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
+        words.AddString("-expand");
+        words.AddString("rgba");
+    } else {
+        const std::vector<int> bands = colourBands(file);
+        bool isThere = bands.size() >= static_cast<std::size_t>(std::min(file.GetRasterCount(), 4));
+        for (std::size_t i = 0; i < bands.size(); ++i) {
+            isThere = isThere && bands[i] == static_cast<int>(i) + 1 &&
+                      file.GetRasterBand(bands[i])->GetRasterDataType() == GDT_Byte;
+            words.AddString("-b");
+            words.AddString(std::to_string(bands[i]).c_str());
+        }
+        if (isThere) return nullptr;
+        if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
+            for (const char* word : {"-scale", "0", CPLSPrintf("%.17g", brightest(file, bands, path)), "0", "255"})
+                words.AddString(word);
+        }
+    }
+    GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
+    int usageError = 0;
+    GDALDatasetH translated = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
+    GDALTranslateOptionsFree(options);
+    if (translated == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
+    return GdalDataset(GDALDataset::FromHandle(translated));
+}
+
+/// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
+/// spacings are almost the same have the same number.
+double postsAround(double circleDeg, double spacingDeg) {
+    const double posts = circleDeg / spacingDeg;
+    const double step = std::exp2(std::floor(std::log2(posts)) - 6.0);
+    return std::ceil(posts / step) * step;
+}
+
+}  // namespace
+
+std::string gdalMessage() {
+    std::string text = CPLGetLastErrorMsg();
+    if (text.empty()) text = "not a raster that GDAL reads";
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+std::string wktOf(const OGRSpatialReference& reference) {
+    char* text = nullptr;
+    reference.exportToWkt(&text);
+    std::string result(text);
+    CPLFree(text);
+    return result;
+}
+
+bool mayExist(const std::string& path) {
+    std::error_code ignored;
+    return path.rfind("/vsi", 0) == 0 || std::filesystem::exists(path, ignored);
+}
+
+void PixelTransform::Free::operator()(void* transformer) const {
+    GDALDestroyGenImgProjTransformer(transformer);
+}
+
+PixelTransform::PixelTransform(GDALDataset& dataset, const OGRSpatialReference& target, const std::string& path) {
+    CPLStringList words;
+    words.SetNameValue("DST_SRS", wktOf(target).c_str());
+    _transformer.reset(GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&dataset), nullptr, words.List()));
+    if (!_transformer) throw Failure("cannot bring \"" + path + "\" to latitude and longitude: " + gdalMessage());
+}
+
+void PixelTransform::transform(Places& places, bool isInverse) const {
+    std::vector<double> z(places.x.size(), 0.0);
+    places.isFound.assign(places.x.size(), 0);
+    GDALGenImgProjTransform(_transformer.get(), isInverse ? TRUE : FALSE, static_cast<int>(places.x.size()),
+                            places.x.data(), places.y.data(), z.data(), places.isFound.data());
+    for (std::size_t i = 0; i < places.x.size(); ++i) {
+        if (!std::isfinite(places.x[i]) || !std::isfinite(places.y[i])) places.isFound[i] = 0;
+    }
+}
+
+RasterFile::RasterFile(const RasterOptions& options) : _path(options.path) {
+    open(options, -1);
+    const int overview = options.spacingDeg > 0.0 ? overviewFor(options.spacingDeg) : -1;
+    if (overview >= 0) open(options, overview);
+}
+
+void RasterFile::open(const RasterOptions& options, int overview) {
+    _decoded.reset();
+    _file = opened(_path, overview);
+    requireGeoreferencing(*_file, _path);
+    takeReference(options);
+    OGRSpatialReference horizontal;
+    if (!_horizontal.empty()) horizontal.importFromWkt(_horizontal.c_str());
+    horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (options.isElevation) {
+        _notes.clear();
+        _decoded = heightsOf(*_file, options, &horizontal, _notes);
+    } else {
+        _decoded = coloursOf(*_file, _path);
+    }
+    place();
+}
+
+void RasterFile::takeReference(const RasterOptions& options) {
+    _target = wgs84();
+    const OGRSpatialReference* reference = referenceOf(*_file);
+    if (reference == nullptr) return;
+    _vertical = verticalOf(*reference);
+    _horizontal = wktOf(horizontalOf(*reference));
+    if (reference->IsLocal() != 0) {
+        throw Failure("the reference system of \"" + _path + "\" is local; give one that has a place on the globe");
+    }
+    if (!options.isWgs84) {
+        OGRSpatialReference globe;
+        globe.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
+        globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        _target = globe;
+    } else if (!isOfEarth(*reference)) {
+        throw Failure("\"" + _path + "\" is of another body than the globe; give rasters of one body, or --radii " +
+                      CPLSPrintf("%.9g %.9g", reference->GetSemiMajor(), reference->GetSemiMinor()));
+    }
+}
+
+bool RasterFile::isNorthUp() const noexcept {
+    return _hasTransform && isUnturned(_transform) && _transform[5] < 0.0;
+}
+
+bool RasterFile::isInDegreesOfGlobe() const {
+    if (!_hasTransform || !isUnturned(_transform)) return false;
+    if (_horizontal.empty()) return true;
+    OGRSpatialReference own;
+    own.importFromWkt(_horizontal.c_str());
+    own.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (own.IsGeographic() == 0 || own.IsDerivedGeographic() != 0) return false;
+    if (own.IsSame(&_target) != 0) return true;
+    const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&own, &_target));
+    if (!way) throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
+    constexpr double kMost = 0.01;  // pixels
+    for (const double u : {0.0, 0.5, 1.0}) {
+        for (const double v : {0.0, 0.5, 1.0}) {
+            const double east = _transform[0] + u * _file->GetRasterXSize() * _transform[1];
+            const double north = std::clamp(_transform[3] + v * _file->GetRasterYSize() * _transform[5], -90.0, 90.0);
+            double x = east;
+            double y = north;
+            if (way->Transform(1, &x, &y) == 0) return false;
+            if (std::abs(std::remainder(x - east, 360.0)) > kMost * _transform[1] && std::abs(north) < 90.0)
+                return false;
+            if (std::abs(y - north) > kMost * std::abs(_transform[5])) return false;
+        }
+    }
+    return true;
+}
+
+void RasterFile::place() {
+    _hasTransform = dataset().GetGeoTransform(_transform.data()) == CE_None;
+    _isPlain = isInDegreesOfGlobe();
+    if (_isPlain) {
+        const double east = _transform[0] + _file->GetRasterXSize() * _transform[1];
+        const double other = _transform[3] + _file->GetRasterYSize() * _transform[5];
+        _extent = {_transform[0], std::min(_transform[3], other), east, std::max(_transform[3], other)};
+        _eastDeg = _transform[1];
+        _northDeg = std::abs(_transform[5]);
+    } else {
+        placeWarped();
+    }
+    constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
+    if (!(_eastDeg >= kFinestDeg && _northDeg >= kFinestDeg)) {
+        throw Failure("the pixels of \"" + _path + "\" have no size on a globe; correct its georeferencing");
+    }
+    constexpr double kMostTurns = 2.0;
+    if (_extent.east - _extent.west > kMostTurns * 360.0 || _eastDeg > 360.0 || _northDeg > 180.0) {
+        throw Failure("\"" + _path + "\" or one of its pixels is larger than a globe; correct its georeferencing");
+    }
+    if (!(_extent.south < 90.0 && _extent.north > -90.0)) {
+        throw Failure("no part of \"" + _path + "\" lies between latitudes -90 and 90; correct its georeferencing");
+    }
+}
+
+namespace {
+
+/// The area of a raster on the globe, from a lattice of places in it.
+class Footprint {
+public:
+    Footprint(const PixelTransform& transform, int width, int height) : _transform(transform) {
+        PixelTransform::Places places;
+        for (int row = 0; row <= kSteps; ++row) {
+            for (int column = 0; column <= kSteps; ++column) {
+                places.add(static_cast<double>(width) * column / kSteps, static_cast<double>(height) * row / kSteps);
+            }
+        }
+        transform.toDegrees(places);
+        int start = 0;  // the found place that is next to the middle
+        for (int i = 0; i < kCount; ++i) {
+            if (places.isFound[at(i)] != 0 && awayFromMiddle(i) < awayFromMiddle(start)) start = i;
+        }
+        if (places.isFound[at(start)] == 0) return;
+        follow(places, start);
+        addPole(90.0, width, height);
+        addPole(-90.0, width, height);
+    }
+
+    [[nodiscard]] bool isFound() const { return _rect.west <= _rect.east; }
+    [[nodiscard]] RectDeg rect() const {
+        if (!_isRound && _rect.east - _rect.west < 360.0) return _rect;
+        return {-180.0, _rect.south, 180.0, _rect.north};
+    }
+
+private:
+    static constexpr int kSteps = 64;
+    static constexpr int kCount = (kSteps + 1) * (kSteps + 1);
+    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+    static int awayFromMiddle(int i) {
+        return std::abs(2 * (i % (kSteps + 1)) - kSteps) + std::abs(2 * (i / (kSteps + 1)) - kSteps);
+    }
+
+    /// From place to place, so that longitudes have no jump between neighbours.
+    void follow(PixelTransform::Places& places, int start) {
+        std::vector<int> found{start};
+        std::vector<bool> isSeen(at(kCount), false);
+        isSeen[at(start)] = true;
+        for (std::size_t next = 0; next < found.size(); ++next) {
+            const int i = found[next];
+            const double longitude = places.x[at(i)];
+            _rect.west = std::min(_rect.west, longitude);
+            _rect.east = std::max(_rect.east, longitude);
+            _rect.south = std::min(_rect.south, places.y[at(i)]);
+            _rect.north = std::max(_rect.north, places.y[at(i)]);
+            const int column = i % (kSteps + 1);
+            for (const int j :
+                 {column > 0 ? i - 1 : -1, column < kSteps ? i + 1 : -1, i - kSteps - 1, i + kSteps + 1}) {
+                if (j < 0 || j >= kCount || isSeen[at(j)] || places.isFound[at(j)] == 0) continue;
+                isSeen[at(j)] = true;
+                const double step = std::remainder(places.x[at(j)] - longitude, 360.0);
+                constexpr double kMostStep = 90.0;  // beside a pole the way round it is not known
+                _isRound = _isRound || std::abs(step) > kMostStep;
+                places.x[at(j)] = longitude + step;
+                found.push_back(j);
+            }
+        }
+    }
+
+    /// Where all longitudes of a pole are one place within the raster.
+    void addPole(double latitude, int width, int height) {
+        PixelTransform::Places places;
+        for (const double longitude : {-120.0, 0.0, 120.0}) places.add(longitude, latitude);
+        _transform.toPixels(places);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const bool isWithin = places.isFound[i] != 0 && places.x[i] >= 0.0 && places.x[i] <= width &&
+                                  places.y[i] >= 0.0 && places.y[i] <= height;
+            if (!isWithin || std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]) > 1.0) return;
+        }
+        _isRound = true;
+        (latitude > 0.0 ? _rect.north : _rect.south) = latitude;
+    }
+
+    const PixelTransform& _transform;
+    RectDeg _rect{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    bool _isRound = false;
+};
+
+/// Distances between pixels along parallels and along meridians, at some places in a raster.
+struct Spacings {
+    std::vector<double> east;
+    std::vector<double> north;
+};
+
+Spacings spacingsOf(const PixelTransform& transform, int width, int height) {
+    constexpr int kSteps = 8;
+    Spacings spacings;
+    for (int i = 0; i < (kSteps + 1) * (kSteps + 1); ++i) {
+        const double x = (width - 1.0) * (i % (kSteps + 1)) / kSteps;
+        const double y = (height - 1.0) * (i / (kSteps + 1)) / kSteps;
+        PixelTransform::Places places;
+        places.add(x, y);
+        places.add(x + 1.0, y);
+        places.add(x, y + 1.0);
+        transform.toDegrees(places);
+        if (std::count(places.isFound.begin(), places.isFound.end(), 0) > 0) continue;
+        const double lonX = std::remainder(places.x[1] - places.x[0], 360.0);
+        const double lonY = std::remainder(places.x[2] - places.x[0], 360.0);
+        const double latX = places.y[1] - places.y[0];
+        const double latY = places.y[2] - places.y[0];
+        const double area = std::abs(lonX * latY - lonY * latX);
+        const double east = area / std::hypot(latX, latY);
+        const double north = area / std::hypot(lonX, lonY);
+        if (east > 0.0 && std::isfinite(east)) spacings.east.push_back(east);
+        if (north > 0.0 && std::isfinite(north)) spacings.north.push_back(north);
+    }
+    std::sort(spacings.east.begin(), spacings.east.end());
+    std::sort(spacings.north.begin(), spacings.north.end());
+    return spacings;
+}
+
+}  // namespace
+
+void RasterFile::placeWarped() {
+    const PixelTransform transform(dataset(), _target, _path);
+    const int width = dataset().GetRasterXSize();
+    const int height = dataset().GetRasterYSize();
+    const Footprint footprint(transform, width, height);
+    const Spacings spacings = spacingsOf(transform, width, height);
+    if (!footprint.isFound() || spacings.east.empty() || spacings.north.empty()) {
+        throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
+    }
+    _extent = footprint.rect();
+    _eastDeg = 360.0 / postsAround(360.0, spacings.east.front());
+    _northDeg = 180.0 / postsAround(180.0, spacings.north[spacings.north.size() / 2]);
+}
+
+int RasterFile::overviewFor(double spacingDeg) const {
+    GDALRasterBand& band = *_file->GetRasterBand(1);
+    const double fullDeg = std::min(_eastDeg, _northDeg);
+    int level = -1;
+    double coarsestDeg = fullDeg;
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* overview = band.GetOverview(i);
+        if (overview == nullptr) continue;
+        const double deg = fullDeg * std::max(static_cast<double>(band.GetXSize()) / overview->GetXSize(),
+                                              static_cast<double>(band.GetYSize()) / overview->GetYSize());
+        if (deg <= coarsestDeg || deg > spacingDeg * (1.0 + kSlack)) continue;
+        coarsestDeg = deg;
+        level = i;
+    }
+    return level;
+}
+
+RasterLook RasterFile::look() const {
+    constexpr int kMost = 2048;  // posts along a side
+    HeightBand& band = static_cast<HeightDataset&>(*_decoded).heights();
+    const int width = std::min(kMost, band.GetXSize());
+    const int rows = std::min(kMost, band.GetYSize());
+    RasterLook look;
+    look.posts = static_cast<double>(width) * rows;
+    look.share = look.posts / (static_cast<double>(band.GetXSize()) * band.GetYSize());
+    const double before = band.marks();
+    std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows));
+    const CPLErr error = band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), heights.data(), width, rows,
+                                       GDT_Float64, 0, 0, nullptr);
+    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
+    look.missing = static_cast<double>(
+        std::count_if(heights.begin(), heights.end(), [](double metres) { return std::isnan(metres); }));
+    look.marks = band.marks() - before;
+    look.lastMark = band.lastMark();
+    return look;
+}
+
+bool RasterFile::hasHeights(const RasterLook& look) const {
+    if (look.missing < look.posts) return true;
+    GDALRasterBand& band = *dataset().GetRasterBand(1);
+    std::vector<double> row(static_cast<std::size_t>(band.GetXSize()));
+    for (int y = 0; look.share < 1.0 && y < band.GetYSize(); ++y) {
+        throwIfStopRequested();
+        const CPLErr error = band.RasterIO(GF_Read, 0, y, band.GetXSize(), 1, row.data(), band.GetXSize(), 1,
+                                           GDT_Float64, 0, 0, nullptr);
+        if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
+        if (std::any_of(row.begin(), row.end(), [](double metres) { return !std::isnan(metres); })) return true;
+    }
+    return false;
+}
+
+std::optional<Radii> foreignRadiiOf(const std::string& path) {
+    const GdalDataset dataset = opened(path);
+    const OGRSpatialReference* reference = referenceOf(*dataset);
+    if (reference == nullptr || reference->IsLocal() != 0 || isOfEarth(*reference)) return std::nullopt;
+    return Radii{reference->GetSemiMajor(), reference->GetSemiMinor()};
+}
+
+}  // namespace osgbindem

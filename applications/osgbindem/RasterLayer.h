@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "RasterFile.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgbindem {
+
+/// Rasters that are equally fine and meet, as one raster in degrees of the globe. GDAL makes it: rasters of one grid
+/// are a mosaic, and what is not in degrees of the globe is warped, at its own spacing or to the posts of tiles that
+/// are as fine, which then have GDAL's own bilinear values. Of rasters with data at the same place the one named first
+/// counts. Not for use by several threads.
+class RasterLayer final {
+public:
+    /// Opens all rasters; finest layers first, of equally fine ones the one named first. Throws Failure.
+    /// `tileCells`: cells along the edges of tiles, to warp to their posts.
+    [[nodiscard]] static std::vector<std::unique_ptr<RasterLayer>> layersOf(const std::vector<RasterOptions>& rasters,
+                                                                            std::optional<int> tileCells = {});
+
+    RasterLayer(const RasterLayer&) = delete;
+    RasterLayer& operator=(const RasterLayer&) = delete;
+
+    /// The rasters, and of each its number on the command line and the part of the layer that it may have data in.
+    struct Member {
+        std::size_t number = 0;
+        std::unique_ptr<RasterFile> file;
+        RasterGrid grid{{0.0, 1.0, 0.0, 0.0, 0.0, -1.0}, 1, 1};
+        PixelWindow window;
+    };
+    [[nodiscard]] const std::vector<Member>& members() const noexcept { return _members; }
+    [[nodiscard]] const std::string& path() const noexcept { return _members.front().file->path(); }
+    [[nodiscard]] const std::string& vertical() const noexcept { return _members.front().file->vertical(); }
+
+    [[nodiscard]] GDALDataset& dataset() const noexcept { return *_dataset; }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _grid; }
+    /// The distance between posts of the finest raster.
+    [[nodiscard]] double spacingDeg() const noexcept { return _spacingDeg; }
+    [[nodiscard]] int width() const { return _dataset->GetRasterXSize(); }
+    [[nodiscard]] int height() const { return _dataset->GetRasterYSize(); }
+
+    /// Visits the pixels that are warped into a window of the layer, before they are.
+    using VisitSource = std::function<void(GDALDataset& source, const PixelWindow& window)>;
+    void forSources(const PixelWindow& window, const VisitSource& visit) const;
+
+private:
+    /// Rasters of one grid in one reference system.
+    struct Piece {
+        std::vector<std::size_t> members;
+        GDALDataset* dataset = nullptr;
+        std::unique_ptr<PixelTransform> transform;  // of what is warped
+    };
+    class Lattice;
+    class Builder;
+
+    RasterLayer() = default;
+    [[nodiscard]] std::vector<PixelWindow> sourceWindows(const Piece& piece, const PixelWindow& window) const;
+
+    /// Datasets that are made of those before them.
+    struct Made {
+        std::vector<GdalDataset> datasets;
+
+        Made() = default;
+        Made(const Made&) = delete;
+        Made& operator=(const Made&) = delete;
+        ~Made() {
+            while (!datasets.empty()) datasets.pop_back();
+        }
+        GDALDataset& keep(GdalDataset dataset) { return *datasets.emplace_back(std::move(dataset)); }
+    };
+
+    std::vector<Member> _members;
+    Made _made;
+    std::vector<Piece> _pieces;
+    GDALDataset* _dataset = nullptr;
+    double _spacingDeg = 0.0;
+    RasterGrid _grid{{0.0, 1.0, 0.0, 0.0, 0.0, -1.0}, 1, 1};
+};
+
+}  // namespace osgbindem
