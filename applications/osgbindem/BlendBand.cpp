@@ -19,7 +19,7 @@ namespace {
 using osgAnalyticBin::support::kRadiansPerDegree;
 
 // Rasters of one resolution have pixel sizes that differ in their last digits.
-constexpr double kAlike = 1.01;
+constexpr double kEquallyFine = 1.01;
 
 double cosine(double latitudeDeg) {
     return std::cos(latitudeDeg * kRadiansPerDegree);
@@ -53,7 +53,7 @@ double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, 
     const RectDeg extent = grid.extent();
     double spacing = std::numeric_limits<double>::infinity();
     for (const RasterGrid& other : all) {
-        if (other.resolutionDeg() > kAlike * grid.resolutionDeg() && other.overlap(extent) > 0.0)
+        if (other.resolutionDeg() > kEquallyFine * grid.resolutionDeg() && other.overlap(extent) > 0.0)
             spacing = std::min(spacing, other.resolutionDeg());
     }
     if (!std::isfinite(spacing)) return 0.0;
@@ -75,7 +75,7 @@ BlendBand::BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all,
     // Others that go on beyond the border, as parts of the south, north, west and east edge.
     std::array<std::vector<RectDeg>, 4> closed;
     for (const RasterGrid& other : all) {
-        const bool isCoarser = other.resolutionDeg() > kAlike * pixel;
+        const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
         const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());
         for (const RectDeg& rect : areasOf(other)) {
             const auto goesOn = [&](double beyond, double near) {

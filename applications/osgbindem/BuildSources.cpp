@@ -229,13 +229,13 @@ std::vector<Raster> without(const std::vector<Raster>& rasters, const std::vecto
 }
 
 // Rasters of one layer have spacings that differ by less.
-constexpr double kAlike = 1.1;
+constexpr double kNearlyAsFine = 1.1;
 
 /// Where heights may change when the raster does: where it lies, and in the voids of finer ones that are `kept`.
 RectDeg changedBy(const Raster& raster, const std::vector<Raster>& kept) {
     double reach = 0.0;
     for (const Raster& other : kept) {
-        if (other.resolutionDeg <= kAlike * raster.resolutionDeg) reach += other.reachDeg;
+        if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
     }
     return raster.area.grownBy(reach);
 }

@@ -22,7 +22,7 @@ using osgAnalyticBin::support::Failure;
 namespace {
 
 // Spacings that differ by less are the same for rasters in different reference systems.
-constexpr double kAlike = 1.05;
+constexpr double kSameSpacing = 1.05;
 
 /// Sets that grow together.
 class Sets {
@@ -208,7 +208,7 @@ private:
         const RasterFile& first = *_files[a.front()];
         const RasterFile& second = *_files[b.front()];
         if ((first.isPlain() && !first.isNorthUp()) || (second.isPlain() && !second.isNorthUp())) return false;
-        if (first.vertical() != second.vertical() || !areAlike(first.northDeg(), second.northDeg(), kAlike))
+        if (first.vertical() != second.vertical() || !areAlike(first.northDeg(), second.northDeg(), kSameSpacing))
             return false;
         const double gap = 2.0 * std::max({first.eastDeg(), second.eastDeg(), first.northDeg(), second.northDeg()});
         return std::any_of(a.begin(), a.end(), [&](std::size_t i) {

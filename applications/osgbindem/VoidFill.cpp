@@ -34,7 +34,7 @@ constexpr std::size_t kMostHeld = 24;
 constexpr double kSeaReach = 8.0;
 constexpr double kCoastHeight = 100.0;
 
-constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 
 void require(CPLErr error, const char* what) {
     if (error != CE_None) throw Failure(std::string("cannot ") + what + " around missing heights: " + gdalMessage());
@@ -281,7 +281,7 @@ VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
         for (int column = block.column; column < block.column + block.width; ++column) {
             const std::size_t i = window.index(column - window.posts.column, row - window.posts.row);
             result.isRival.push_back(window.isRival[i]);
-            result.heights.push_back(window.isRival[i] ? static_cast<float>(window.heights[i]) : kMissing);
+            result.heights.push_back(window.isRival[i] ? static_cast<float>(window.heights[i]) : kVoid);
         }
     }
     window.forMissing(
