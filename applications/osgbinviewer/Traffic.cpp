@@ -57,7 +57,7 @@ osg::ref_ptr<osg::Geode> makeAircraft() {
     return geode;
 }
 
-// Where a vertical at a place meets the loaded terrain.
+// Where the vertical at a place on the ellipsoid meets the loaded terrain.
 std::optional<osg::Vec3d> groundAt(osg::Node& scene, const osg::Vec3d& place, const osg::Vec3d& up) {
     constexpr double kReach = 2e4;  // metres
     const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
@@ -88,7 +88,7 @@ void Traffic::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
                      heading = 2.0 * osg::PI * share(random);
         const osg::Vec3d place = eye + (east * std::sin(bearing) + north * std::cos(bearing)) * distance;
         const osg::Vec3d upThere = vertical(globe, place);
-        const auto ground = groundAt(scene, place, upThere);
+        const auto ground = groundAt(scene, place - upThere * geodetic(globe, place).altitude, upThere);
         if (!ground) continue;
         osg::Matrixd turn = osg::Matrixd::rotate(heading, osg::Vec3d(0.0, 0.0, 1.0));
         turn.postMult(osg::Matrixd::rotate(osg::Vec3d(0.0, 0.0, 1.0), upThere));

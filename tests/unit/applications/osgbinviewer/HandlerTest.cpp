@@ -147,7 +147,7 @@ TEST_F(Handlers, CountTheModelsThatAreDrawn) {
     look(_viewer, 1.0);
     drawUntilIdle(_viewer);
     const osg::Vec3d eye = osg::Vec3d() * _viewer.getCamera()->getInverseViewMatrix();
-    traffic.scatter(*database, eye, 3e6);
+    traffic.scatter(*database, eye, 6e5);
     (void)traffic.takeDrawn();
     _viewer.frame();
     const unsigned int asking = traffic.takeDrawn();
