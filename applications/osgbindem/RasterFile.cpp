@@ -612,10 +612,12 @@ int RasterFile::overviewFor(double spacingDeg) const {
 }
 
 RasterLook RasterFile::look() const {
-    constexpr int kMost = 2048;  // posts along a side
+    // GDAL takes the posts from an overview where there is one, which may be the little that is wanted of a far server.
+    constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
+    const int most = _file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
     HeightBand& band = static_cast<HeightDataset&>(*_decoded).heights();
-    const int width = std::min(kMost, band.GetXSize());
-    const int rows = std::min(kMost, band.GetYSize());
+    const int width = std::min(most, band.GetXSize());
+    const int rows = std::min(most, band.GetYSize());
     RasterLook look;
     look.posts = static_cast<double>(width) * rows;
     look.share = look.posts / (static_cast<double>(band.GetXSize()) * band.GetYSize());

@@ -48,6 +48,8 @@ struct Arguments {
 
 // Kinds of parts that doc/limits.md excludes: they are left out without --everything.
 constexpr std::array kExcluded{"a subclass of CullVisitor"};
+// With it OpenGL does not clear the buffers of the next camera either: pictures depend on what is drawn last.
+constexpr const char* kNotInPictures = "rasterizer discard";
 
 constexpr const char* kUsage =
     "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--leave-out TEXT]\n"
@@ -99,6 +101,7 @@ Arguments parse(int count, char** values) {
     }
     if (result.isOnly) result.scenes = 1;
     if (!result.hasEverything) result.leftOut.insert(result.leftOut.end(), kExcluded.begin(), kExcluded.end());
+    if (!result.hasEverything && result.hasPictures) result.leftOut.emplace_back(kNotInPictures);
     return result;
 }
 
