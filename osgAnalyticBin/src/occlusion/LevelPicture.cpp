@@ -3,6 +3,7 @@
 
 #include "LevelPicture.h"
 
+#include "../kit/DepthBuffer.h"
 #include "../kit/GlmBridge.h"
 #include "../kit/Inverse.h"
 
@@ -18,10 +19,6 @@ namespace {
 
 // Views and corners of views that are less level than this have no picture on a vertical plane.
 constexpr double kLevel = 0.2;
-
-// A depth buffer of 24 bits distinguishes depths that differ by this share of its range. These are 16 steps, because
-// drivers interpolate depths in single precision.
-constexpr double kDepthStep = 0x1p-20;
 
 }  // namespace
 
@@ -41,10 +38,7 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
     const glm::dvec3 level = look - glm::dot(look, view.up) * view.up;
     if (!(view.pixels > 0.0 && glm::length(level) > kLevel)) return std::nullopt;
     view.forward = glm::normalize(level);
-    // The buffer stores a + b / z. For projections to depths from 0 to 1 the true b is twice as large.
-    // With near and far planes at n and f it is n f / (f - n), above n.
-    const double b = leastNear ? *leastNear : 0.5 * std::abs(projection(3, 2) / projection(2, 3));
-    view.depthStep = kDepthStep / b;
+    view.depthStep = kDepthStep / (leastNear ? *leastNear : depthScaleOf(projection));
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
         const osg::Vec4d clip(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, 0.5, 1.0);
         const osg::Vec4d point = clip * unproject;

@@ -269,16 +269,22 @@ DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules) {
     return drawn;
 }
 
+DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end, const StateRules& rules) {
+    DrawnState drawn;
+    for (; graph && graph != end; graph = graph->_parent) {
+        if (graph->_stateset) drawn &= drawnState(*graph->_stateset, rules);
+    }
+    return drawn;
+}
+
 DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, const osgUtil::StateGraph* end) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
     if (!cullVisitor) return kHarmless;
-    DrawnState drawn;
+    const osgUtil::StateGraph* const present = cullVisitor->getCurrentStateGraph();
+    DrawnState drawn = drawnStates(present, end, rules);
     bool isWindingSet = !rules.isClockwise;
-    for (const auto* graph = cullVisitor->getCurrentStateGraph(); graph && graph != end; graph = graph->_parent) {
-        if (!graph->_stateset) continue;
-        drawn &= drawnState(*graph->_stateset, rules);
-        isWindingSet = isWindingSet || graph->_stateset->getAttribute(Attribute::FRONTFACE);
-    }
+    for (const auto* graph = present; !isWindingSet && graph && graph != end; graph = graph->_parent)
+        isWindingSet = graph->_stateset && graph->_stateset->getAttribute(Attribute::FRONTFACE);
     if (!isWindingSet) drawn &= kHidesNothing;
     return drawn;
 }

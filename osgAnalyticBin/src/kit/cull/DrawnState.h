@@ -66,6 +66,10 @@ struct StateRules {
 /// Of a node by its state and its class, whatever its callbacks and what is below it.
 [[nodiscard]] DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules);
 
+/// Of the states of a graph and of those above it, without `end` and those above that.
+[[nodiscard]] DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end,
+                                     const StateRules& rules);
+
 /// Of the states from the camera to the visitor's present node, or from below `end` where it is among them. Returns:
 /// all is known for visitors that collect no state.
 [[nodiscard]] DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules,

@@ -3,6 +3,7 @@
 
 #include "HidingView.h"
 
+#include "../DepthBuffer.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
 #include "../Spheres.h"
@@ -20,9 +21,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// As in the search for tiles behind terrain: 16 steps of a depth buffer of 24 bits, and twice the step to which drivers
-// snap the corners of triangles.
-constexpr double kDepthStep = 0x1p-20, kDrawing = 1.0 / 128.0;
+// Of a pixel: twice the step to which drivers snap the corners of triangles, as in the search for tiles behind terrain.
+constexpr double kDrawing = 1.0 / 128.0;
 
 // Of spheres as floats, and of the positions that drivers compute with floats.
 constexpr double kRounding = 0x1p-20;
@@ -72,22 +72,27 @@ bool HidingView::Picture::isOf(osgUtil::CullVisitor& visitor) const {
 
 void HidingView::set(osgUtil::CullVisitor& visitor, const Known& known) {
     clear();
-    const auto eyeToEcef = affineInverse(*visitor.getModelViewMatrix());
     const auto culling = visitor.getCurrentCullingSet().getCullingMask();
-    if (!eyeToEcef || !(culling & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
+    if (!(culling & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
     _picture = Picture::of(visitor);
-    _eyeToEcef = *eyeToEcef;
-    _scale = stretchOf(_eyeToEcef);
+    _ecefToEye = *visitor.getModelViewMatrix();
+    _eyeToEcef.reset();
     _drawing = kDrawing * pixelOf(visitor);
-    const osg::Matrixd& projection = *visitor.getProjectionMatrix();
-    // The buffer stores a + b / z. A near plane that OSG computes is no nearer than the ratio times a depth that is
-    // drawn.
+    // A near plane that OSG computes is no nearer than the ratio times a depth that is drawn.
     _isStepRelative = !isFinalProjection(visitor);
-    _depthStep = kDepthStep /
-                 (_isStepRelative ? visitor.getNearFarRatio() : 0.5 * std::abs(projection(3, 2) / projection(2, 3)));
+    _depthStep =
+        kDepthStep / (_isStepRelative ? visitor.getNearFarRatio() : depthScaleOf(*visitor.getProjectionMatrix()));
     _isOverRegion.reset();
     _above = nullptr;
     _known = known;
+}
+
+// Most scenes have no nodes that ask.
+bool HidingView::findFrame() {
+    if (_eyeToEcef) return true;
+    _eyeToEcef = affineInverse(_ecefToEye);
+    if (_eyeToEcef) _scale = stretchOf(*_eyeToEcef);
+    return _eyeToEcef.has_value();
 }
 
 bool HidingView::isInUse(const osg::NodeVisitor& visitor) const {
@@ -107,13 +112,13 @@ bool HidingView::hides(osgUtil::CullVisitor& visitor, const osg::BoundingSphere&
                        const osg::Matrixd& localToEye) {
     _askedIn = std::max(1u, visitor.getTraversalNumber());
     ++_asked;
-    if (!_known || !sphere.valid() || !isAffine(localToEye) || !_picture.isOf(visitor)) return false;
+    if (!_known || !sphere.valid() || !isAffine(localToEye) || !_picture.isOf(visitor) || !findFrame()) return false;
     const osg::Vec3d local(sphere.center()), inEye = local * localToEye;
     const double float32 = kRounding * (local.length() + static_cast<double>(sphere.radius()));
     const double distance = _scale * inEye.length();
     const double radius =
         _scale * stretchOf(localToEye) * (static_cast<double>(sphere.radius()) + float32) + kRounding * distance;
-    const glm::dvec3 centre = toGlm(inEye * _eyeToEcef);
+    const glm::dvec3 centre = toGlm(inEye * *_eyeToEcef);
     const bool isBeyond = isBehindHorizon(centre, radius + _drawing * distance, distance);
     const bool isHidden =
         _known->hider ? _known->hider->hidesBall(centre, radius, isBeyond) : isBeyond && !_known->isCutOpen;
@@ -144,13 +149,10 @@ DrawnState HidingView::stateAbove(osgUtil::CullVisitor& visitor, const StateRule
     if (!graph) return {false, false, false};
     if (!_above || graph->_parent != _above) {
         _above = graph->_parent;
-        _stateAbove = DrawnState();
-        for (const auto* above = _above; above; above = above->_parent) {
-            if (above->_stateset) _stateAbove &= drawnState(*above->_stateset, rules);
-        }
+        _stateAbove = drawnStates(_above, nullptr, rules);
     }
-    DrawnState drawn = _stateAbove;
-    if (graph->_stateset) drawn &= drawnState(*graph->_stateset, rules);
+    DrawnState drawn = drawnStates(graph, _above, rules);
+    drawn &= _stateAbove;
     return drawn;
 }
 

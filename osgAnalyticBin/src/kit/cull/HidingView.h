@@ -70,14 +70,16 @@ private:
         TileSelection::Conditions conditions;
     };
 
+    [[nodiscard]] bool findFrame();
     [[nodiscard]] bool isBehindHorizon(const glm::dvec3& centre, double radius, double distance);
     [[nodiscard]] bool staysOverRegion();
 
     std::optional<Known> _known;
     Picture _picture;
-    osg::Matrixd _eyeToEcef;
-    double _scale = 1.0;      // metres in a unit of eye space, rounded up
-    double _drawing = 0.0;    // of a pixel, in radians
+    osg::Matrixd _ecefToEye;
+    std::optional<osg::Matrixd> _eyeToEcef;  // once it is asked for
+    double _scale = 1.0;                     // metres in a unit of eye space, rounded up
+    double _drawing = 0.0;                   // of a pixel, in radians
     double _depthStep = 0.0;  // of the reciprocal of a depth in eye space; times that depth where OSG computes it
     bool _isStepRelative = false;
     std::optional<bool> _isOverRegion;  // every line of sight

@@ -36,13 +36,11 @@ const osg::Camera* stageCamera(osg::NodeVisitor& visitor) {
 
 constexpr unsigned int kLeastDepthBits = 24;
 
-unsigned int depthBits(GLenum format) {
-    if (format == GL_DEPTH_COMPONENT16) return 16;
-    const bool isFine = format == GL_DEPTH_COMPONENT || format == GL_DEPTH_COMPONENT24 ||
-                        format == GL_DEPTH_COMPONENT32 || format == GL_DEPTH_COMPONENT32F ||
-                        format == GL_DEPTH_STENCIL_EXT || format == GL_DEPTH24_STENCIL8_EXT ||
-                        format == GL_DEPTH32F_STENCIL8;
-    return isFine ? kLeastDepthBits : 0;
+// Whether it has as many, or the driver chooses.
+bool isFineDepth(GLenum format) {
+    return format == GL_DEPTH_COMPONENT || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32 ||
+           format == GL_DEPTH_COMPONENT32F || format == GL_DEPTH_STENCIL_EXT || format == GL_DEPTH24_STENCIL8_EXT ||
+           format == GL_DEPTH32F_STENCIL8;
 }
 
 // Whether the depth buffer that is drawn into tells apart what horizons and occlusion tell apart. Where OSG leaves its
@@ -55,7 +53,7 @@ bool hasFineDepthBuffer(osg::NodeVisitor& visitor) {
             const osg::Texture* const texture = attachment._texture.get();
             const GLint format =
                 texture ? texture->getInternalFormat() : static_cast<GLint>(attachment._internalFormat);
-            return depthBits(static_cast<GLenum>(format)) >= kLeastDepthBits;
+            return isFineDepth(static_cast<GLenum>(format));
         }
         return (camera->getImplicitBufferAttachmentRenderMask(true) & osg::Camera::IMPLICIT_DEPTH_BUFFER_ATTACHMENT) !=
                0;
@@ -89,22 +87,28 @@ bool isOrthographic(const osg::Matrixd& p) {
     return p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0 && p(3, 3) != 0.0;
 }
 
+}  // namespace
+
+osg::Vec3d sightThroughCorner(const osg::Matrixd& p, int corner) {
+    const double determinant = p(0, 0) * p(1, 1) - p(1, 0) * p(0, 1);
+    const double x = (corner & 1 ? 1.0 : -1.0) * p(2, 3) - p(2, 0);
+    const double y = (corner & 2 ? 1.0 : -1.0) * p(2, 3) - p(2, 1);
+    return {(x * p(1, 1) - y * p(1, 0)) / determinant, (y * p(0, 0) - x * p(0, 1)) / determinant, 1.0};
+}
+
+namespace {
+
 // How far the near plane of a perspective projection is from the eye at most; infinite when in doubt. Depths of 0 and 1
 // in clip space are at the near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
 double reachOfNearPlane(const osg::Matrixd& p, const osg::Matrixd& eyeToWorld) {
-    const double determinant = p(0, 0) * p(1, 1) - p(1, 0) * p(0, 1);
     double nearest = std::numeric_limits<double>::infinity();
     for (const double depth : {0.0, 1.0}) {
         double farthest = 0.0;
         for (int corner = 0; corner < 4; ++corner) {
-            // on the line of sight (a, b, 1) z through the corner, as it is projected
-            const double x = (corner & 1 ? 1.0 : -1.0) * p(2, 3) - p(2, 0);
-            const double y = (corner & 2 ? 1.0 : -1.0) * p(2, 3) - p(2, 1);
-            const double a = (x * p(1, 1) - y * p(1, 0)) / determinant, b = (y * p(0, 0) - x * p(0, 1)) / determinant;
-            const double z = p(3, 2) / (depth * p(2, 3) - p(2, 2) - a * p(0, 2) - b * p(1, 2));
-            const double distance = z * p(2, 3) > 0.0
-                                        ? osg::Matrixd::transform3x3(osg::Vec3d(a, b, 1.0) * z, eyeToWorld).length()
-                                        : std::numeric_limits<double>::infinity();
+            const osg::Vec3d sight = sightThroughCorner(p, corner);
+            const double z = p(3, 2) / (depth * p(2, 3) - p(2, 2) - sight.x() * p(0, 2) - sight.y() * p(1, 2));
+            const double distance = z * p(2, 3) > 0.0 ? osg::Matrixd::transform3x3(sight * z, eyeToWorld).length()
+                                                      : std::numeric_limits<double>::infinity();
             if (!(distance <= farthest)) farthest = distance;
         }
         nearest = std::min(nearest, farthest);

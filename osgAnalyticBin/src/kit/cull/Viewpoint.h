@@ -7,7 +7,9 @@
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/CullStack>
+#include <osg/Matrixd>
 #include <osg/NodeVisitor>
+#include <osg/Vec3d>
 
 #include <optional>
 
@@ -15,6 +17,10 @@ namespace osgAnalyticBin {
 
 /// Whether the projection stays as it is when all is culled: OSG computes no near and far planes.
 [[nodiscard]] bool isFinalProjection(const osg::CullStack& cullStack);
+
+/// The line of sight (x, y, 1) z through a corner of the picture of a perspective projection, in eye space. Corners: 0
+/// to 3. Not finite for projections without a picture.
+[[nodiscard]] osg::Vec3d sightThroughCorner(const osg::Matrixd& projection, int corner);
 
 /// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
 class OSGANALYTICBIN_EXPORT Viewpoint final {

@@ -45,10 +45,9 @@ void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, Install
     const osg::EllipsoidModel& ellipsoid = *installed.database().ellipsoid();
     core::MeshCover cover = coverOf({{kept}, ellipsoid, tile.getLocalToEcef(), shape});
     // the place of a tile that is vouched for is that of its bin, with its skirts
-    const bool isSame = areVouchedFor(tile.getCullOptions(), ellipsoid)
-                            ? isSamePlace(cover.place, installed.place(), core::MeshCover::kSkirtRoom)
-                            : isSamePlace(cover.place, installed.place());
-    cover.isFilled = cover.isFilled && isSame;
+    const bool hasSkirts = areVouchedFor(tile.getCullOptions(), ellipsoid);
+    const double share = hasSkirts ? core::MeshCover::kSkirtRoom : kPlaceRounding;
+    cover.isFilled = cover.isFilled && isSamePlace(cover.place, installed.place(), share);
     cover.place = installed.place();
     installed.setCover(cover);
     const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});

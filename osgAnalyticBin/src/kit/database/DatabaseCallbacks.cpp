@@ -160,16 +160,15 @@ double reachOfComputedNear(const SelectedView& selected) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     osgUtil::CullVisitor& visitor = *selected.visitor.asCullVisitor();
     const osg::Node* unknown = nullptr;
-    osg::Matrixd unproject;
     const auto eyeToEcef = affineInverse(*visitor.getModelViewMatrix());
-    if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef || !unproject.invert(*visitor.getProjectionMatrix()))
-        return kUnknown;
+    if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef) return kUnknown;
     const auto near = ComputedNear::of(visitor, *selected.view.selection, unknown);
     if (!near) return kUnknown;
     double toCorner = 0.0;
-    for (unsigned int i = 0; i < 4; ++i) {
-        const osg::Vec3d corner = osg::Vec3d(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, 0.5) * unproject;
-        toCorner = std::max(toCorner, corner.length() / std::abs(corner.z()));
+    for (int corner = 0; corner < 4; ++corner) {
+        // written so that NaN stays
+        const double length = sightThroughCorner(*visitor.getProjectionMatrix(), corner).length();
+        if (!(length <= toCorner)) toCorner = length;
     }
     return near->most({}) * toCorner * stretchOf(*eyeToEcef);
 }
@@ -197,15 +196,15 @@ bool mayCutTerrain(const DatabaseView& view, const glm::dvec3& eye, double reach
 // Tells nodes that are no tiles what the database hides.
 void tellOthers(const SelectedView& selected, const Horizon& horizon) {
     osgUtil::CullVisitor* const visitor = selected.visitor.asCullVisitor();
-    const auto eye = affineInverse(*selected.cullStack.getModelViewMatrix());
-    if (!visitor || !eye || !horizon.nearReach) return;
+    if (!visitor || !horizon.nearReach) return;
     HidingView& hiding = SearchMemory::of(*visitor).hiding;
     const auto isCutOpen = [&] {
         const bool isFinal = isFinalProjection(selected.cullStack);
         const double reach = isFinal ? *horizon.nearReach : reachOfComputedNear(selected);
-        return mayCutTerrain(selected.view, toGlm(eye->getTrans()), reach);
+        const auto eyeToEcef = affineInverse(*selected.cullStack.getModelViewMatrix());
+        return !eyeToEcef || mayCutTerrain(selected.view, toGlm(eyeToEcef->getTrans()), reach);
     };
-    // takes longer than to say that nothing is hidden
+    // where nobody asks, finding out would take longer than saying that it may be
     const bool isAsked = !horizon.hider && horizon.eye && hiding.isInUse(*visitor);
     hiding.set(*visitor, {selected.view.ellipsoid, horizon.eye, horizon.region, selected.view.planes, horizon.hider,
                           !horizon.hider && (!isAsked || isCutOpen())});

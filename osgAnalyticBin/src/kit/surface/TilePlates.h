@@ -35,9 +35,10 @@ struct TileMeshes {
 /// What a tile's own meshes cover, skirts left out. Several levels of detail have to fill the same place each. Of
 /// osgTerrain tiles: the whole grid, by any technique that is vouched for.
 [[nodiscard]] core::MeshCover coverOf(const TileMeshes& meshes);
-/// Whether two places are the same, up to a share of their width; by default the rounding of float vertices.
-[[nodiscard]] bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b,
-                               double share = 4.0 * core::MeshCover::kTolerance);
+/// The share of a place's width by which float vertices are rounded.
+inline constexpr double kPlaceRounding = 4.0 * core::MeshCover::kTolerance;
+/// Whether two places are the same, up to a share of their width.
+[[nodiscard]] bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b, double share = kPlaceRounding);
 /// Who declares a horizon says that the tiles of the globe have no holes: their meshes are not looked at.
 [[nodiscard]] bool areVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid);
 
