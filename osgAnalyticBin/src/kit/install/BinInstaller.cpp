@@ -267,7 +267,7 @@ void BinInstaller::visitOther(osg::Node& node) {
 }
 
 void BinInstaller::noteBetween(const osg::Node& node) const {
-    if (installsBins() && !_isInMesh) tellAbove(drawnStateAt(node, stateRules()));
+    if (installsBins() && _parent && !_isInMesh) tellAbove(drawnStateAt(node, stateRules()));
 }
 
 // What stands above all tiles is asked in every cull traversal.

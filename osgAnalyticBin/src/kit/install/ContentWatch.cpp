@@ -374,7 +374,7 @@ void ContentWatch::check(const osg::Node& node) const {
         }
     }
     if (group && fitted < _fitted.size() && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
-    if (group || _fitted.empty() || isFitted(node, true) || !isMerged(node)) return;
+    if (group || _fitted.empty() || isFitted(node, true) || !isMergedNow()) return;
     // an osgTerrain tile that has other heights
     fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node)));
     doubtMeshOf(node, false);
