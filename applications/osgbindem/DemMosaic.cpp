@@ -17,7 +17,7 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-// So many times coarser at most, a raster knows more of a void than the posts around it.
+// A raster that is up to so many times as coarse knows more of a void than the posts around it.
 constexpr double kRival = 1.5;
 
 // Half of the memory is GDAL's cache, the other half the windows that the threads keep.
@@ -26,7 +26,7 @@ double postsPerThread(const Settings& settings) {
     return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 
-/// What is told of rasters, once where it is the same.
+/// Notes on rasters; several rasters share a line where their notes are the same.
 class Notes {
 public:
     void add(const std::string& path, const std::string& note) { _paths[note].push_back(path); }

@@ -111,7 +111,7 @@ std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
                                       : at(cell->west, cell->second);
         result.metres = (1.0 - v) * first + v * second;
     }
-    // Among posts of rivals alone the rival itself knows better.
+    // Where all posts around are a rival's, the rival itself is asked.
     if (std::isnan(result.metres) || !isOwn) return std::nullopt;
     return result;
 }

@@ -6,19 +6,16 @@
 #include "Failure.h"
 #include "HeightDataset.h"
 #include "Interruption.h"
+#include "RasterColours.h"
 
 #include <cpl_string.h>
-#include <gdal_alg.h>
-#include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <dlfcn.h>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 
 namespace osgbindem {
 
@@ -62,7 +59,7 @@ void requireAllRows(GDALDataset& dataset, const std::string& path) {
     }
 }
 
-/// Has HDF5, which GDAL loads, keep what it prints of each error; in each thread by itself.
+/// Keeps HDF5, which GDAL loads, from printing its errors, in the calling thread.
 void silenceHdf5() {
     using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
     if (void* setAuto = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(setAuto)(0, nullptr, nullptr);
@@ -251,119 +248,7 @@ GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGR
     return GdalDataset(new HeightDataset(band, code, horizontal));
 }
 
-/// Numbers of the bands in the order red, green, blue, alpha, or grey, alpha.
-std::vector<int> colourBands(GDALDataset& file) {
-    const int count = file.GetRasterCount();
-    const auto bandOf = [&](GDALColorInterp colour) {
-        for (int i = 1; i <= count; ++i)
-            if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
-        return 0;
-    };
-    std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
-    const int alpha = bandOf(GCI_AlphaBand);
-    if (std::count(bands.begin(), bands.end(), 0) > 0) {
-        const int colours = alpha == 0 ? count : alpha - 1;
-        bands = colours >= 3 ? std::vector{1, 2, 3} : std::vector{std::max(1, bandOf(GCI_GrayIndex))};
-    }
-    if (alpha != 0) bands.push_back(alpha);
-    return bands;
-}
-
-/// The number that is shown at full brightness: the end of the usual range that holds the highest one.
-double brightest(GDALDataset& file, const std::vector<int>& bands, const std::string& path) {
-    double highest = 0.0;
-    for (const int number : bands) {
-        std::array<double, 2> range{};
-        GDALRasterBand& band = *file.GetRasterBand(number);
-        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) highest = std::max(highest, range[1]);
-    }
-    const bool isWhole = GDALDataTypeIsInteger(file.GetRasterBand(bands.front())->GetRasterDataType()) != 0;
-    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
-        if (highest <= end && (end > 1.0 || !isWhole)) return end;
-    }
-    throw Failure("colours of \"" + path + "\" reach " + std::string(CPLSPrintf("%.9g", highest)) +
-                  "; bring them to bytes, for example with gdal_translate -ot Byte -scale");
-}
-
-/// Colours as bytes; an empty pointer where the file has them so.
-GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
-    CPLStringList words(CSLTokenizeString("-of VRT -ot Byte"));
-    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
-        words.AddString("-expand");
-        words.AddString("rgba");
-    } else {
-        const std::vector<int> bands = colourBands(file);
-        bool isThere = bands.size() >= static_cast<std::size_t>(std::min(file.GetRasterCount(), 4));
-        for (std::size_t i = 0; i < bands.size(); ++i) {
-            isThere = isThere && bands[i] == static_cast<int>(i) + 1 &&
-                      file.GetRasterBand(bands[i])->GetRasterDataType() == GDT_Byte;
-            words.AddString("-b");
-            words.AddString(std::to_string(bands[i]).c_str());
-        }
-        if (isThere) return nullptr;
-        if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
-            for (const char* word : {"-scale", "0", CPLSPrintf("%.17g", brightest(file, bands, path)), "0", "255"})
-                words.AddString(word);
-        }
-    }
-    GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
-    int usageError = 0;
-    GDALDatasetH translated = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
-    GDALTranslateOptionsFree(options);
-    if (translated == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
-    return GdalDataset(GDALDataset::FromHandle(translated));
-}
-
-/// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
-/// spacings are almost the same have the same number.
-double postsAround(double circleDeg, double spacingDeg) {
-    const double posts = circleDeg / spacingDeg;
-    const double step = std::exp2(std::floor(std::log2(posts)) - 6.0);
-    return std::ceil(posts / step) * step;
-}
-
 }  // namespace
-
-std::string gdalMessage() {
-    std::string text = CPLGetLastErrorMsg();
-    if (text.empty()) text = "not a raster that GDAL reads";
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-std::string wktOf(const OGRSpatialReference& reference) {
-    char* text = nullptr;
-    reference.exportToWkt(&text);
-    std::string result(text);
-    CPLFree(text);
-    return result;
-}
-
-bool mayExist(const std::string& path) {
-    std::error_code ignored;
-    return path.rfind("/vsi", 0) == 0 || std::filesystem::exists(path, ignored);
-}
-
-void PixelTransform::Free::operator()(void* transformer) const {
-    GDALDestroyGenImgProjTransformer(transformer);
-}
-
-PixelTransform::PixelTransform(GDALDataset& dataset, const OGRSpatialReference& target, const std::string& path) {
-    CPLStringList words;
-    words.SetNameValue("DST_SRS", wktOf(target).c_str());
-    _transformer.reset(GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&dataset), nullptr, words.List()));
-    if (!_transformer) throw Failure("cannot bring \"" + path + "\" to latitude and longitude: " + gdalMessage());
-}
-
-void PixelTransform::transform(Places& places, bool isInverse) const {
-    std::vector<double> z(places.x.size(), 0.0);
-    places.isFound.assign(places.x.size(), 0);
-    GDALGenImgProjTransform(_transformer.get(), isInverse ? TRUE : FALSE, static_cast<int>(places.x.size()),
-                            places.x.data(), places.y.data(), z.data(), places.isFound.data());
-    for (std::size_t i = 0; i < places.x.size(); ++i) {
-        if (!std::isfinite(places.x[i]) || !std::isfinite(places.y[i])) places.isFound[i] = 0;
-    }
-}
 
 RasterFile::RasterFile(const RasterOptions& options) : _path(options.path) {
     open(options, -1);
@@ -463,135 +348,13 @@ void RasterFile::place() {
     }
 }
 
-namespace {
-
-/// The area of a raster on the globe, from a lattice of places in it.
-class Footprint {
-public:
-    Footprint(const PixelTransform& transform, int width, int height) : _transform(transform) {
-        PixelTransform::Places places;
-        for (int row = 0; row <= kSteps; ++row) {
-            for (int column = 0; column <= kSteps; ++column) {
-                places.add(static_cast<double>(width) * column / kSteps, static_cast<double>(height) * row / kSteps);
-            }
-        }
-        transform.toDegrees(places);
-        int start = 0;  // the found place that is next to the middle
-        for (int i = 0; i < kCount; ++i) {
-            if (places.isFound[at(i)] != 0 && awayFromMiddle(i) < awayFromMiddle(start)) start = i;
-        }
-        if (places.isFound[at(start)] == 0) return;
-        follow(places, start);
-        addPole(90.0, width, height);
-        addPole(-90.0, width, height);
-    }
-
-    [[nodiscard]] bool isFound() const { return _rect.west <= _rect.east; }
-    [[nodiscard]] RectDeg rect() const {
-        if (!_isRound && _rect.east - _rect.west < 360.0) return _rect;
-        return {-180.0, _rect.south, 180.0, _rect.north};
-    }
-
-private:
-    static constexpr int kSteps = 64;
-    static constexpr int kCount = (kSteps + 1) * (kSteps + 1);
-    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-    static int awayFromMiddle(int i) {
-        return std::abs(2 * (i % (kSteps + 1)) - kSteps) + std::abs(2 * (i / (kSteps + 1)) - kSteps);
-    }
-
-    /// From place to place, so that longitudes have no jump between neighbours.
-    void follow(PixelTransform::Places& places, int start) {
-        std::vector<int> found{start};
-        std::vector<bool> isSeen(at(kCount), false);
-        isSeen[at(start)] = true;
-        for (std::size_t next = 0; next < found.size(); ++next) {
-            const int i = found[next];
-            const double longitude = places.x[at(i)];
-            _rect.west = std::min(_rect.west, longitude);
-            _rect.east = std::max(_rect.east, longitude);
-            _rect.south = std::min(_rect.south, places.y[at(i)]);
-            _rect.north = std::max(_rect.north, places.y[at(i)]);
-            const int column = i % (kSteps + 1);
-            for (const int j :
-                 {column > 0 ? i - 1 : -1, column < kSteps ? i + 1 : -1, i - kSteps - 1, i + kSteps + 1}) {
-                if (j < 0 || j >= kCount || isSeen[at(j)] || places.isFound[at(j)] == 0) continue;
-                isSeen[at(j)] = true;
-                const double step = std::remainder(places.x[at(j)] - longitude, 360.0);
-                constexpr double kMostStep = 90.0;  // beside a pole the way round it is not known
-                _isRound = _isRound || std::abs(step) > kMostStep;
-                places.x[at(j)] = longitude + step;
-                found.push_back(j);
-            }
-        }
-    }
-
-    /// Where all longitudes of a pole are one place within the raster.
-    void addPole(double latitude, int width, int height) {
-        PixelTransform::Places places;
-        for (const double longitude : {-120.0, 0.0, 120.0}) places.add(longitude, latitude);
-        _transform.toPixels(places);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const bool isWithin = places.isFound[i] != 0 && places.x[i] >= 0.0 && places.x[i] <= width &&
-                                  places.y[i] >= 0.0 && places.y[i] <= height;
-            if (!isWithin || std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]) > 1.0) return;
-        }
-        _isRound = true;
-        (latitude > 0.0 ? _rect.north : _rect.south) = latitude;
-    }
-
-    const PixelTransform& _transform;
-    RectDeg _rect{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    bool _isRound = false;
-};
-
-/// Distances between pixels along parallels and along meridians, at some places in a raster.
-struct Spacings {
-    std::vector<double> east;
-    std::vector<double> north;
-};
-
-Spacings spacingsOf(const PixelTransform& transform, int width, int height) {
-    constexpr int kSteps = 8;
-    Spacings spacings;
-    for (int i = 0; i < (kSteps + 1) * (kSteps + 1); ++i) {
-        const double x = (width - 1.0) * (i % (kSteps + 1)) / kSteps;
-        const double y = (height - 1.0) * (i / (kSteps + 1)) / kSteps;
-        PixelTransform::Places places;
-        places.add(x, y);
-        places.add(x + 1.0, y);
-        places.add(x, y + 1.0);
-        transform.toDegrees(places);
-        if (std::count(places.isFound.begin(), places.isFound.end(), 0) > 0) continue;
-        const double lonX = std::remainder(places.x[1] - places.x[0], 360.0);
-        const double lonY = std::remainder(places.x[2] - places.x[0], 360.0);
-        const double latX = places.y[1] - places.y[0];
-        const double latY = places.y[2] - places.y[0];
-        const double area = std::abs(lonX * latY - lonY * latX);
-        const double east = area / std::hypot(latX, latY);
-        const double north = area / std::hypot(lonX, lonY);
-        if (east > 0.0 && std::isfinite(east)) spacings.east.push_back(east);
-        if (north > 0.0 && std::isfinite(north)) spacings.north.push_back(north);
-    }
-    std::sort(spacings.east.begin(), spacings.east.end());
-    std::sort(spacings.north.begin(), spacings.north.end());
-    return spacings;
-}
-
-}  // namespace
-
 void RasterFile::placeWarped() {
-    const PixelTransform transform(dataset(), _target, _path);
-    const int width = dataset().GetRasterXSize();
-    const int height = dataset().GetRasterYSize();
-    const Footprint footprint(transform, width, height);
-    const Spacings spacings = spacingsOf(transform, width, height);
-    if (!footprint.isFound() || spacings.east.empty() || spacings.north.empty()) {
-        throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
-    }
-    _extent = footprint.rect();
-    _eastDeg = 360.0 / postsAround(360.0, spacings.east.front());
-    _northDeg = 180.0 / postsAround(180.0, spacings.north[spacings.north.size() / 2]);
+    const auto place = warpedPlaceOf(PixelTransform(dataset(), _target, _path), dataset().GetRasterXSize(),
+                                     dataset().GetRasterYSize());
+    if (!place) throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
+    _extent = place->extent;
+    _eastDeg = place->eastDeg;
+    _northDeg = place->northDeg;
 }
 
 int RasterFile::overviewFor(double spacingDeg) const {
@@ -612,7 +375,7 @@ int RasterFile::overviewFor(double spacingDeg) const {
 }
 
 RasterLook RasterFile::look() const {
-    // GDAL takes the posts from an overview where there is one, which may be the little that is wanted of a far server.
+    // GDAL reads these posts from an overview where there is one, so that a server sends little.
     constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
     const int most = _file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
     HeightBand& band = static_cast<HeightDataset&>(*_decoded).heights();

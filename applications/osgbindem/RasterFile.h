@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "Gdal.h"
+#include "PixelTransform.h"
 #include "RasterGrid.h"
 
 #include <gdal_priv.h>
@@ -14,21 +16,6 @@
 #include <vector>
 
 namespace osgbindem {
-
-/// The last message of GDAL on one line.
-[[nodiscard]] std::string gdalMessage();
-
-/// A reference system as text.
-[[nodiscard]] std::string wktOf(const OGRSpatialReference& reference);
-
-/// Whether there is a file of this name; of names that begin with /vsi only GDAL knows, so there may be one.
-/// No name that the file system refuses is a file's.
-[[nodiscard]] bool mayExist(const std::string& path);
-
-struct GdalClose {
-    void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
-};
-using GdalDataset = std::unique_ptr<GDALDataset, GdalClose>;
 
 using GeoTransform = std::array<double, 6>;
 
@@ -45,34 +32,6 @@ struct RasterOptions {
     std::optional<double> metresPerUnit;
     /// The band with heights, or a single one of an image; without it, the first with heights, or all colours.
     std::optional<int> band;
-};
-
-/// Pixels and lines of a raster, and the longitudes and latitudes of the globe. Not for use by several threads.
-class PixelTransform final {
-public:
-    /// `target`: longitude and latitude in degrees. Throws Failure.
-    PixelTransform(GDALDataset& dataset, const OGRSpatialReference& target, const std::string& path);
-
-    struct Places {
-        std::vector<double> x;
-        std::vector<double> y;
-        std::vector<int> isFound;
-
-        void add(double placeX, double placeY) {
-            x.push_back(placeX);
-            y.push_back(placeY);
-        }
-    };
-    void toDegrees(Places& places) const { transform(places, false); }
-    void toPixels(Places& places) const { transform(places, true); }
-
-private:
-    struct Free {
-        void operator()(void* transformer) const;
-    };
-    void transform(Places& places, bool isInverse) const;
-
-    std::unique_ptr<void, Free> _transformer;
 };
 
 /// What was looked at of an elevation raster: all of it, or evenly spread posts of a large one.
@@ -133,7 +92,7 @@ private:
 
     std::string _path;
     GdalDataset _file;
-    /// Of it; nothing where the file itself has what is wanted.
+    /// The metres or colours that are made of the file; empty where the file itself has them.
     GdalDataset _decoded;
     bool _isPlain = false;
     bool _hasTransform = false;

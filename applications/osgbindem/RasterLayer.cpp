@@ -24,7 +24,7 @@ namespace {
 // Spacings that differ by less are the same for rasters in different reference systems.
 constexpr double kSameSpacing = 1.05;
 
-/// Sets that grow together.
+/// Disjoint sets, which are joined one after the other.
 class Sets {
 public:
     explicit Sets(std::size_t count) : _parents(count) { std::iota(_parents.begin(), _parents.end(), 0); }
@@ -317,7 +317,7 @@ private:
         return {std::min(a.west, b.west), std::min(a.south, b.south), std::max(a.east, b.east),
                 std::max(a.north, b.north)};
     }
-    /// The area a number of turns to the east or west of where it is, so that it is next to the other one.
+    /// The area, moved by whole turns so that it lies next to the other one.
     [[nodiscard]] static RectDeg turnedTo(RectDeg area, const RectDeg& other) {
         const double turn =
             360.0 * std::round((0.5 * (other.west + other.east) - 0.5 * (area.west + area.east)) / 360.0);

@@ -63,7 +63,7 @@ private:
     RasterLayer() = default;
     [[nodiscard]] std::vector<PixelWindow> sourceWindows(const Piece& piece, const PixelWindow& window) const;
 
-    /// Datasets that are made of those before them.
+    /// Datasets, each made of earlier ones, and destroyed before them.
     struct Made {
         std::vector<GdalDataset> datasets;
 

@@ -30,7 +30,7 @@ struct Settings {
     /// rasters.
     std::optional<double> blend;
     std::vector<std::string> images;
-    /// The band of elevation rasters with the heights.
+    /// The band that has the heights in elevation rasters.
     std::optional<int> band;
     /// GDAL's configuration: names, each followed by its value.
     std::vector<std::string> config;

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <memory>
+#include <string>
+
+namespace osgbindem {
+
+/// The last message of GDAL on one line.
+[[nodiscard]] std::string gdalMessage();
+
+/// A reference system as text.
+[[nodiscard]] std::string wktOf(const OGRSpatialReference& reference);
+
+/// Whether there is a file of this name; of names that begin with /vsi only GDAL knows, so there may be one.
+/// No name that the file system refuses is a file's.
+[[nodiscard]] bool mayExist(const std::string& path);
+
+struct GdalClose {
+    void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
+};
+using GdalDataset = std::unique_ptr<GDALDataset, GdalClose>;
+
+}  // namespace osgbindem
