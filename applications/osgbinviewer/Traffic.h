@@ -20,7 +20,7 @@ public:
     /// The models, to be added to a scene behind its database. Empty until scatter().
     [[nodiscard]] osg::Group& models() { return *_models; }
 
-    /// Puts the models to random places up to `reach` metres from the eye, the same ones every time. Ground is what is
+    /// Puts the models at random places up to `reach` metres from the eye, the same ones every time. Ground is what is
     /// loaded of the scene. Between frames only. Cost: one intersection with the scene for each model.
     void scatter(osg::Node& scene, const osg::Vec3d& eye, double reach);
 

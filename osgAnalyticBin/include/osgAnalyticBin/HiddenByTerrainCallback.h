@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 /// The node is drawn in doubt: where the visitor comes to it before it comes to the database, and where the database
 /// hides nothing in this view (doc/architecture.md says when). It is also drawn where what is below it may be drawn
 /// outside of its sphere, or in front of what is nearer: with states, callbacks and classes that are not known to be
-/// harmless (osgText is none of these), wide lines and points, billboards, bounds computed by the application, culling
+/// harmless (osgText is one of these), wide lines and points, billboards, bounds computed by the application, culling
 /// that is switched off. Nested callbacks run when the node is drawn.
 /// Guarantee: a node is left out only if each line of sight to its sphere meets drawn terrain before; tests:
 /// HiddenByTerrain.*.
@@ -30,7 +30,7 @@ namespace osgAnalyticBin {
 class OSGANALYTICBIN_EXPORT HiddenByTerrainCallback : public osg::NodeCallback {
 public:
     HiddenByTerrainCallback() = default;
-    /// There is nothing to copy but nested callbacks.
+    /// Copies nested callbacks; the callback has no state of its own.
     HiddenByTerrainCallback(const HiddenByTerrainCallback& other,
                             const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 

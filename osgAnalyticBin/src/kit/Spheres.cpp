@@ -16,8 +16,7 @@ constexpr double kRadiusRounding = 1.2e-7;
 
 }  // namespace
 
-// The Frobenius norm, or exactly the scale
-// where the rows are of one length and at right angles.
+// The Frobenius norm; where the rows have one length and are at right angles, exactly the scale.
 double stretchOf(const osg::Matrixd& m) {
     double squares = 0.0;
     for (int row = 0; row < 3; ++row) {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kModels = 2000;
 
-// Counts models that are drawn, and goes no further.
+// Counts the models that are drawn, and does not traverse them.
 class Drawn : public osg::NodeCallback {
 public:
     Drawn() { setTraversesAlways(*this); }
@@ -72,7 +72,7 @@ public:
         }
     }
 
-    // In a traversal that has come past the terrain.
+    // Runs it in a cull traversal, after the terrain was traversed.
     void traverse(const std::function<void(osg::NodeVisitor&)>& action) {
         _doing->action = action;
         (void)_globe.draws(*_globe.row[0], RidgeGlobe::alongRow());

@@ -253,7 +253,7 @@ private:
         }
     }
 
-    // Below one tile, on another.
+    // Models that belong to one tile and stand on another.
     void addUnculled() {
         static constexpr std::array<Hook, 5> kHooks{Hook::Own, Hook::Mesh, Hook::Geode, Hook::Slot, Hook::File};
         Part& part = add(PartKind::Unculled, _random.pick(kHooks));

@@ -44,7 +44,7 @@ bool HorizonProfile::hides(const HorizonBuffer::Outline& body) const noexcept {
     const auto [first, last] = _buffer.stripsOf(body);
     for (std::size_t i = first; i < last; ++i) {
         const Step *const begin = _steps.data() + _first[i], *const end = _steps.data() + _first[i + 1];
-        // with the distance, the upper end grows
+        // the upper end grows with the distance
         if (begin == end || !(body.heights.upper <= end[-1].heights.upper)) return false;
         const Step* const behind = std::upper_bound(
             begin, end, farthest, [](double distance, const Step& step) { return distance < step.farthest; });

@@ -39,7 +39,7 @@ struct DrawnState {
     }
 };
 
-/// Of this, what concerns the tiles above, too: reasons of InstalledTile.
+/// The reasons, of InstalledTile::Reason, that something gives for all tiles above it.
 [[nodiscard]] unsigned int reasonsAbove(const DrawnState& drawn);
 
 /// What else is known. By itself: in a frame that does not mirror, whatever the camera.

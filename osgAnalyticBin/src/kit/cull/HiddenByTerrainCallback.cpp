@@ -33,7 +33,7 @@ bool keepsSpheres(const osg::Transform& transform) {
     return std::abs(x * y) <= tolerance && std::abs(y * z) <= tolerance && std::abs(z * x) <= tolerance;
 }
 
-// Lines and points are wider than they are.
+// Lines and points are drawn wider than their vertices reach.
 bool drawsFaces(const osg::Geometry& geometry) {
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
         const GLenum mode = primitives->getMode();

@@ -24,7 +24,7 @@ namespace {
 // Of a pixel: twice the step to which drivers snap the corners of triangles, as in the search for tiles behind terrain.
 constexpr double kDrawing = 1.0 / 128.0;
 
-// Of spheres as floats, and of the positions that drivers compute with floats.
+// The rounding of spheres, and of the positions that drivers compute: both are floats.
 constexpr double kRounding = 0x1p-20;
 
 bool areEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
@@ -87,7 +87,7 @@ void HidingView::set(osgUtil::CullVisitor& visitor, const Known& known) {
     _known = known;
 }
 
-// Most scenes have no nodes that ask.
+// Only when a node asks: most scenes have none that does.
 bool HidingView::findFrame() {
     if (_eyeToEcef) return true;
     _eyeToEcef = affineInverse(_ecefToEye);
@@ -134,7 +134,7 @@ bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double
     return 1.0 - share > step && staysOverRegion();
 }
 
-// Whether all lines of sight do.
+// Whether all lines of sight stay over the region.
 bool HidingView::staysOverRegion() {
     if (!_known->region) return true;
     if (!_isOverRegion) {

@@ -36,7 +36,7 @@ const osg::Camera* stageCamera(osg::NodeVisitor& visitor) {
 
 constexpr unsigned int kLeastDepthBits = 24;
 
-// Whether it has as many, or the driver chooses.
+// Whether a format has that many bits, or leaves their number to the driver.
 bool isFineDepth(GLenum format) {
     return format == GL_DEPTH_COMPONENT || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32 ||
            format == GL_DEPTH_COMPONENT32F || format == GL_DEPTH_STENCIL_EXT || format == GL_DEPTH24_STENCIL8_EXT ||
