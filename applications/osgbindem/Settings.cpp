@@ -153,10 +153,9 @@ void declare(CLI::App& app, Arguments& arguments) {
         "elevation rasters that GDAL reads, in any reference system;\nwithout one, longitude and latitude in "
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
-    app.add_option("--height-unit,--scale", arguments.scales,
+    app.add_option("--height-unit", arguments.scales,
                    "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default: the "
-                   "unit in the raster, else m); "
-                   "--scale is its older name")
+                   "unit in the raster, else m)")
         ->delimiter(',');
     app.add_option("-b,--band", settings.band, "band of the elevation rasters with the heights (default: the first)")
         ->check(CLI::Range(1, 65535));

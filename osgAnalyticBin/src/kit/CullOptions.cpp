@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -34,11 +33,8 @@ constexpr Names<ClusterUse, 2> kClusters{{{ClusterUse::Keep, "keep"}, {ClusterUs
 constexpr Names<bool, 2> kShaders{{{true, "plain"}, {false, "declared"}}};
 constexpr Names<IndexUse, 3> kIndexes{{{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
 
-// Methods that older versions had, which are in the applications now.
+// Methods for comparison, which are in the applications.
 constexpr std::array<const char*, 4> kMovedMethods{"paper", "corners", "box", "orientedbox"};
-// The factor of method=paper, which older versions stored with every method.
-constexpr const char* kMovedKey = "growth";
-constexpr const char* kStoredGrowth = "1.1";
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr core::Interval kAltitudes{-1e6, 1e6};
@@ -188,9 +184,6 @@ constexpr std::array<KnownItem, 12> kItems{
      choice<kShaders, &CullOptions::plainShaders>("shaders", "declared|plain"),
      choice<kIndexes, &CullOptions::index>("index", "auto|on|off")}};
 
-// The name that edges= had; it is read in stored scenes, too.
-constexpr const char* kOldEdges = "reverse";
-
 std::string usage() {
     std::vector<std::string> words;
     for (const KnownItem& item : kItems) words.push_back(std::string(item.key) + '=' + item.values);
@@ -200,18 +193,6 @@ std::string usage() {
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
     for (const KnownItem& item : kItems) {
         if (key == item.key) return item.apply(item.key, value, options, error);
-    }
-    if (key == kOldEdges) {
-        static std::atomic<bool> hasSaid{false};
-        if (!hasSaid.exchange(true))
-            OSG_NOTICE << "osgAnalyticBin: the option reverse= is called edges= now; the old name is still read."
-                       << std::endl;
-        return applyItem("edges", value, options, error);
-    }
-    if (key == kMovedKey && value == kStoredGrowth) return true;
-    if (key == kMovedKey) {
-        error = "growth= belongs to method=paper: read DATABASE.(method=paper,growth=FACTOR).binrival";
-        return false;
     }
     error = "unknown parameter \"" + key + "\" (use " + usage() + ")";
     return false;
@@ -238,7 +219,6 @@ bool CullOptions::operator==(const CullOptions& other) const noexcept {
 std::vector<std::string> cullOptionKeys() {
     std::vector<std::string> keys;
     for (const KnownItem& item : kItems) keys.emplace_back(item.key);
-    keys.emplace_back(kOldEdges);
     return keys;
 }
 

@@ -61,18 +61,6 @@ TEST(CullOptions, OcclusionReadsBack) {
     }
 }
 
-// In scenes that older versions have stored.
-TEST(CullOptions, EdgesAreReadByTheirOldName) {
-    std::string error;
-    for (const bool isOn : {false, true}) {
-        const auto options = cullOptionsFromText(isOn ? "reverse=on" : "reverse=off", error);
-        ASSERT_TRUE(options) << error;
-        EXPECT_EQ(options->edges, isOn);
-        EXPECT_EQ(toText(*options), isOn ? "method=quadratic" : "method=quadratic,edges=off");
-    }
-    EXPECT_FALSE(cullOptionsFromText("reverse=maybe", error));
-}
-
 TEST(CullOptions, HorizonAndEdgesReadBack) {
     std::string error;
     for (const char* text : {"horizon=-500.25 edges=off", "horizon=off", "horizon=declared,edges=on"}) {
@@ -95,16 +83,6 @@ TEST(CullOptions, SayWhereTheMethodsForComparisonWent) {
         EXPECT_NE(error.find("osgbinbench"), std::string::npos) << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
-    std::string error;
-    EXPECT_FALSE(cullOptionsFromText("growth=1.5", error));
-    EXPECT_NE(error.find("method=paper"), std::string::npos) << error;
-}
-
-TEST(CullOptions, StoredWithTheFactorOfAMovedMethodReadAsBefore) {
-    std::string error;
-    const auto options = cullOptionsFromText("method=exact,growth=1.1,horizon=-500", error);
-    ASSERT_TRUE(options) << error;
-    EXPECT_EQ(toText(*options), "method=exact,horizon=-500");
 }
 
 TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {

@@ -173,9 +173,9 @@ TEST_P(Serializer, AStoredBinReadsBackExactly) {
 INSTANTIATE_TEST_SUITE_P(Formats, Serializer, ::testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& suite) { return std::string(suite.param); });
 
-// As older versions stored it with every tile.
+// As a scene may hold it with every tile.
 TEST(StoredOptions, OfAMethodForComparisonAreTheDefaultAfterOneWarning) {
-    const std::string text = "method=paper,growth=1.1,horizon=-500";
+    const std::string text = "method=paper,horizon=-500";
     const test::CapturedNotes notes;
     const osg::ref_ptr<InstallBinsCallback> request = new InstallBinsCallback;
     request->setOptionsText(text);

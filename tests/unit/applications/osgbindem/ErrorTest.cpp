@@ -156,9 +156,9 @@ TEST_F(Error, OtherNumbers) {
 }
 
 TEST_F(Error, Scales) {
-    expectUsageError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
+    expectUsageError({good(), "--height-unit", "miles", "-o", output()}, "unknown unit \"miles\"");
     expectUsageError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
-    expectUsageError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
+    expectUsageError({good(), "--height-unit", "m", "ft", "-o", output()}, "2 units");
 }
 
 TEST_F(Error, CommandLine) {

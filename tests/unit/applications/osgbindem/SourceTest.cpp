@@ -185,7 +185,8 @@ TEST(Source, UnitsAreForAllOrForEach) {
     TestRaster::globe(2.0, [](double, double) { return 1000.0; }).write(folder.file("globe.tif"));
     TestRaster(0.0, 20.0, 0.5, 0.5, 41, 41, [](double, double) { return 3000.0; }).write(folder.file("inset.tif"));
     const auto built = [&](const std::vector<std::string>& scales) {
-        std::vector<std::string> arguments{"--levels", "0", "-o", folder.file("earth.osgb"), "--overwrite", "--scale"};
+        std::vector<std::string> arguments{"--levels",     "0", "-o", folder.file("earth.osgb"), "--overwrite",
+                                           "--height-unit"};
         arguments.insert(arguments.end(), scales.begin(), scales.end());
         arguments.insert(arguments.end(), {folder.file("globe.tif"), folder.file("inset.tif")});
         build(arguments);
