@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <optional>
@@ -109,6 +110,14 @@ struct CullOptions {
     bool plainShaders = false;
     /// Whether an index is used, and made where there is none.
     IndexUse index = IndexUse::Auto;
+    /// The globe of tiles that no osg::CoordinateSystemNode stands above, in metres: the node that bins are installed
+    /// on is in its earth-centred coordinates. Where there is a CoordinateSystemNode, that one counts. Without a value,
+    /// only tiles with stored bins are found without a CoordinateSystemNode.
+    std::optional<core::Ellipsoid> globe;
+    /// The name of the nodes that are the ground of tiles, such as "BTGTerrainGroup" in SimGear's files. Each of them
+    /// is a tile by itself if it is a mesh that stays in its place. Nothing else is a tile then, except what has a
+    /// stored bin: objects beside the ground keep OSG's own culling. No index is used. Empty: TileFinder decides.
+    std::string ground;
 
     /// Whether every item is the same.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const CullOptions& other) const noexcept;
@@ -121,16 +130,17 @@ struct CullOptions {
 
 /// Parses "method=exact,edges=off", "horizon=-500", "horizon=off", "inheritviewpoint=on",
 /// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50",
-/// "shaders=plain", "index=off"; separated by commas or blanks; capital letters in a name do not matter; an empty text
-/// gives the default. Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and
-/// what is allowed.
+/// "shaders=plain", "index=off", "globe=wgs84", "globe=1737400/1737400", "ground=NAME"; separated by commas or blanks;
+/// capital letters in a name do not matter; an empty text gives the default. Returns: nullopt when an item is unknown
+/// or malformed, with one line in `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 
 /// The names of the options in cullOptionsFromText(): "method", "horizon" and so on.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::string> cullOptionKeys();
 
-/// The text that cullOptionsFromText() reads back to the same options.
+/// The text that cullOptionsFromText() reads back to the same options. A name of the ground with a blank or a comma is
+/// left out.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string toText(const CullOptions& options);
 
 /// The options of a stored scene. The default where the text is malformed, after one warning for all scenes with it.

@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/Export.h>
 
+#include <osg/Matrixd>
 #include <osg/Node>
 #include <osgDB/Options>
 
@@ -54,6 +55,29 @@ OSGANALYTICBIN_EXPORT bool waitForIndex(osg::Node& node, double seconds);
 /// The same with an index that the application has read.
 OSGANALYTICBIN_EXPORT std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options,
                                                      const BinIndex& index);
+
+/// Puts bins on a tile that the application has read and will attach below a database itself, as the tile manager of a
+/// flight simulator does. Call it before the tile is attached; attach it anywhere below `database`, for instance by
+/// DatabasePager::requestNodeFile() of a reader that calls this. Tiles in it are those of TileFinder or of
+/// CullOptions::ground; a mesh that pages nothing is one, too. Wrap a tile that is a transform in an osg::Group: groups
+/// are tested together with their siblings, transforms one by one.
+/// `database`: the node that installBins() was called for, or the CoordinateSystemNode below it. Where there is no tile
+/// at that time, CullOptions::globe has to be set. `parentToEcef`: from the frame of the node that the tile will be
+/// attached to, to earth-centred coordinates.
+/// The horizon is used where its altitude is given (`horizon=METRES`): what is shown may end anywhere. The root of the
+/// database has to be updated: the next update has siblings tested together.
+/// Threads: any, several at once, while the database is culled and updated; not while installBins(), setCullOptions()
+/// or removeBins() run. Cost: that of reading the tile's vertices once; nothing beside the tile is visited.
+/// Returns: the number of bins. 0: OSG culls the tile by itself; the first time, a line says why.
+/// Tests: AddedTiles.*.
+OSGANALYTICBIN_EXPORT std::size_t addTile(osg::Node& database, osg::Node& tile,
+                                          const osg::Matrixd& parentToEcef = osg::Matrixd());
+
+/// Takes the bins off a tile, with all below it. Call it before the tile is taken out of the scene, which has to be
+/// done before the next frame: a tile that is missing without this counts as a hole in the terrain. There is no need
+/// to call it for a tile below a group of its own that is taken away with it. Call it between frames. Cost: that of its
+/// nodes and its siblings. Tests: AddedTiles.*.
+OSGANALYTICBIN_EXPORT void removeTile(osg::Node& database, osg::Node& tile);
 
 /// Changes the options of databases that are shown, also to Method::Sphere or Method::None. From the next frame on,
 /// tiles are culled as if the database had been read with these options: tiles that are loaded, tiles that the

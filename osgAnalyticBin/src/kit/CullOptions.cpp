@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/CullOptions.h>
 
+#include <osg/CoordinateSystemNode>
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
@@ -158,6 +159,42 @@ std::string heightsText(const CullOptions& options) {
     return numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
 }
 
+// The earth's, metres.
+const core::Ellipsoid& wgs84() {
+    static const core::Ellipsoid ellipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+    return ellipsoid;
+}
+
+bool applyGlobe(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    constexpr core::Interval kRadii{1.0, 1e12};
+    const std::size_t slash = value.find('/');
+    const auto equatorial = numberWithin(value.substr(0, slash), kRadii);
+    const auto polar = slash == std::string::npos ? std::nullopt : numberWithin(value.substr(slash + 1), kRadii);
+    if (osgDB::convertToLowerCase(value) == "wgs84") {
+        options.globe = wgs84();
+    } else if (equatorial && polar) {
+        options.globe.emplace(*equatorial, *polar);
+    } else {
+        return refuse(key, value, "wgs84, or two radii in metres, e.g. globe=1737400/1737400", error);
+    }
+    return true;
+}
+
+std::string globeText(const CullOptions& options) {
+    if (!options.globe) return {};
+    if (*options.globe == wgs84()) return "wgs84";
+    return numberToText(options.globe->equatorialRadius()) + '/' + numberToText(options.globe->polarRadius());
+}
+
+bool applyGround(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    options.ground = value;
+    return !value.empty() || refuse(key, value, "the name of the nodes that are ground", error);
+}
+
+std::string groundText(const CullOptions& options) {
+    return options.ground.find_first_of(",; \t\n") == std::string::npos ? options.ground : "";
+}
+
 struct KnownItem {
     const char* key;
     const char* values;
@@ -170,7 +207,7 @@ constexpr KnownItem choice(const char* key, const char* values) {
     return {key, values, Choice<kNames, kOption>::apply, Choice<kNames, kOption>::text};
 }
 
-constexpr std::array<KnownItem, 12> kItems{
+constexpr std::array<KnownItem, 14> kItems{
     {{"method", "NAME", applyMethod, [](const CullOptions& o) { return std::string(methodName(o.method)); }},
      {"horizon", "METRES|declared|off", applyHorizon, horizonText},
      choice<kOnOff, &CullOptions::inheritViewpoint>("inheritviewpoint", "on|off"),
@@ -182,7 +219,9 @@ constexpr std::array<KnownItem, 12> kItems{
      {"heights", "LOW..HIGH", applyHeights, heightsText},
      {"techniquemargin", "METRES", applyTechniqueMargin, techniqueMarginText},
      choice<kShaders, &CullOptions::plainShaders>("shaders", "declared|plain"),
-     choice<kIndexes, &CullOptions::index>("index", "auto|on|off")}};
+     choice<kIndexes, &CullOptions::index>("index", "auto|on|off"),
+     {"globe", "wgs84|EQUATORIAL/POLAR", applyGlobe, globeText},
+     {"ground", "NAME", applyGround, groundText}}};
 
 std::string usage() {
     std::vector<std::string> words;
@@ -211,7 +250,8 @@ std::optional<Method> methodFromName(const std::string& name) noexcept {
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
         return std::tie(o.method, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry, o.skirts,
-                        o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders, o.index);
+                        o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders, o.index,
+                        o.globe, o.ground);
     };
     return items(*this) == items(other);
 }

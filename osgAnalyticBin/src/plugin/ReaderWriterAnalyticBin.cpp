@@ -79,6 +79,10 @@ public:
         supportsOption("skirts=cracks|all",
                        "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
                        "below it.");
+        supportsOption("globe=wgs84|EQUATORIAL/POLAR",
+                       "The globe, by its radii in metres, where no CoordinateSystemNode stands above the tiles.");
+        supportsOption("ground=NAME",
+                       "The name of the nodes that are the tiles' ground; all else keeps OSG's own culling.");
         supportsOption("cluster=replace|keep",
                        "Whether the database's ClusterCullingCallbacks cull nothing (default) or are left in charge.");
     }

@@ -100,11 +100,27 @@ TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
     EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=auto", error)), toText(CullOptions()));
 }
 
+TEST(CullOptions, WhatAnApplicationSaysOfItsTilesReadsBack) {
+    std::string error;
+    const auto options = cullOptionsFromText("globe=1738100/1736000,ground=BTGTerrainGroup", error);
+    ASSERT_TRUE(options) << error;
+    const auto back = cullOptionsFromText(toText(*options), error);
+    ASSERT_TRUE(back) << error;
+    ASSERT_TRUE(back->globe);
+    EXPECT_EQ(back->globe->equatorialRadius(), 1738100.0);
+    EXPECT_EQ(back->globe->polarRadius(), 1736000.0);
+    EXPECT_EQ(back->ground, "BTGTerrainGroup");
+    EXPECT_NE(toText(*cullOptionsFromText("globe=WGS84", error)).find("globe=wgs84"), std::string::npos);
+    CullOptions unreadable;
+    unreadable.ground = "two words";
+    EXPECT_EQ(toText(unreadable), toText(CullOptions()));
+}
+
 TEST(CullOptions, AreEqualInAllItemsOrNot) {
     std::string error;
-    for (const char* item :
-         {"method=exact", "horizon=off", "horizon=-500", "inheritviewpoint=on", "edges=off", "expiry=5", "skirts=all",
-          "cluster=keep", "heights=-500..9000", "heights=-11500..8000", "techniquemargin=0", "index=off"}) {
+    for (const char* item : {"method=exact", "horizon=off", "horizon=-500", "inheritviewpoint=on", "edges=off",
+                             "expiry=5", "skirts=all", "cluster=keep", "heights=-500..9000", "heights=-11500..8000",
+                             "techniquemargin=0", "index=off", "globe=wgs84", "ground=Ground"}) {
         const auto options = cullOptionsFromText(item, error);
         ASSERT_TRUE(options) << error;
         EXPECT_FALSE(*options == CullOptions()) << item;
@@ -122,12 +138,13 @@ TEST(CullOptions, LaterItemsWin) {
 
 TEST(CullOptions, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},      {"method", "unknown method"},  {"expiry=big", "big"},
-        {"colour=red", "colour"},     {"expiry=1.1x", "1.1x"},       {"Meth=exact", "meth"},
-        {"horizon=low", "low"},       {"horizon=1e9", "1e9"},        {"edges=maybe", "maybe"},
-        {"skirts=none", "none"},      {"cluster=off", "off"},        {"heights=9", "9"},
-        {"heights=3..1", "3..1"},     {"heights=a..b", "a..b"},      {"index=x", "x"},
-        {"techniquemargin=-1", "-1"}, {"techniquemargin=inf", "inf"}};
+        {"method=cube", "cube"},      {"method", "unknown method"},   {"expiry=big", "big"},
+        {"colour=red", "colour"},     {"expiry=1.1x", "1.1x"},        {"Meth=exact", "meth"},
+        {"horizon=low", "low"},       {"horizon=1e9", "1e9"},         {"edges=maybe", "maybe"},
+        {"skirts=none", "none"},      {"cluster=off", "off"},         {"heights=9", "9"},
+        {"heights=3..1", "3..1"},     {"heights=a..b", "a..b"},       {"index=x", "x"},
+        {"techniquemargin=-1", "-1"}, {"techniquemargin=inf", "inf"}, {"globe=mars", "mars"},
+        {"globe=0/1", "0/1"},         {"globe=6e6", "6e6"},           {"ground=", "ground"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

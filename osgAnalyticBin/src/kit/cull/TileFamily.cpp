@@ -62,7 +62,8 @@ void TileFamily::remove(osg::Node& node) {
 
 void TileFamily::renew(osg::Node& node) {
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
-    if (!old || old->_group != &node || !old->_hasTiles) return;
+    if (!old) (void)place(node);
+    if (!old || old->_group != &node) return;
     const osg::ref_ptr<ColumnUnion> above = old->_block->columnUnion().above();
     old->_block->columnUnion().setAbove(nullptr);
     remove(node);
@@ -73,7 +74,7 @@ void TileFamily::renew(osg::Node& node) {
                                           [&](const auto& tile) { return tile && !group.containsNode(tile); });
     if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
     if (above) family->_block->columnUnion().setAbove(above);
-    if (family->_hasTiles || family->_hasLostTiles) node.addCullCallback(family);
+    if (family->_hasTiles || family->_hasGroups || family->_hasLostTiles) node.addCullCallback(family);
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {

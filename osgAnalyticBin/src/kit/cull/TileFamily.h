@@ -50,8 +50,8 @@ public:
     /// Removes the family.
     static void remove(osg::Node& node);
 
-    /// Rebuilds the family of a group after the application has added, removed or replaced children. Requires: no cull
-    /// traversal runs.
+    /// Rebuilds the family of a group after the application has added, removed or replaced children; places one where
+    /// there was none and the first tile was added. Requires: no cull traversal runs.
     OSGANALYTICBIN_EXPORT static void renew(osg::Node& node);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;

@@ -24,18 +24,30 @@ constexpr std::size_t kMostToWiden = 65536;
 
 using Contents = std::vector<osg::observer_ptr<osg::Node>>;
 
-// Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
-bool takeMerged(Contents& contents) {
+// Forgets what is in the scene or deleted. Calls `visit` for what is in the scene. Returns: whether there is any.
+template <class Visit>
+bool takeMerged(Contents& contents, const Visit& visit) {
     bool found = false;
     const auto isGone = [&](const osg::observer_ptr<osg::Node>& observed) {
         osg::ref_ptr<osg::Node> node;
         if (!observed.lock(node)) return true;
         const bool isMerged = node->getNumParents() > 0;
+        if (isMerged) visit(*node);
         found = found || isMerged;
         return isMerged;
     };
     contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
     return found;
+}
+
+bool takeMerged(Contents& contents) {
+    return takeMerged(contents, [](osg::Node&) {});
+}
+
+// A database that is not drawn never processes these lists.
+void keepFew(Contents& contents) {
+    constexpr std::size_t kMostOnTheirWay = 4096;
+    if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
 }
 
 // Of a mesh that has changed.
@@ -132,9 +144,14 @@ void Database::noteRead(osg::Node& content, unsigned int generation) {
     const std::lock_guard<std::mutex> lock(_mutex);
     Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
     contents.emplace_back(&content);
-    // a database that is not drawn never processes this list
-    constexpr std::size_t kMostOnTheirWay = 4096;
-    if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
+    keepFew(contents);
+}
+
+void Database::noteAdded(osg::Node& tile, unsigned int generation) {
+    noteRead(tile, generation);
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _added.emplace_back(&tile);
+    keepFew(_added);
 }
 
 void Database::findLateComers() {
@@ -142,6 +159,9 @@ void Database::findLateComers() {
     const std::lock_guard<std::mutex> lock(_mutex);
     if (_onTheirWay.size() > kMany) (void)takeMerged(_onTheirWay);
     if (!_lateComers.empty() && takeMerged(_lateComers)) requestRefit();
+    (void)takeMerged(_added, [this](osg::Node& tile) {
+        for (osg::Group* const parent : tile.getParents()) noteChanged(*parent);
+    });
 }
 
 bool Database::needsUpdate() {
@@ -274,6 +294,7 @@ void Database::renewFamilies() {
         if (!observed.lock(group)) continue;
         TileFamily::renew(*group);
         trustMeshes(*group);
+        watch(*group);
     }
 }
 

@@ -47,15 +47,19 @@ public:
     [[nodiscard]] static Database& of(const InstalledTile& tile) { return static_cast<Database&>(tile.database()); }
 
     /// Installs bins on content that was read from one of its files, in the thread that reads it. `frame`: where it
-    /// stands; `parent`: the tile that pages it, null: none.
-    virtual void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) = 0;
+    /// stands; `parent`: the tile that pages it, null: none. Returns: the number of bins.
+    virtual std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) = 0;
     /// Fits the loaded tiles again. `root`: the node that it is attached to. Requires: no cull traversal runs.
     virtual void refit(osg::Node& root) = 0;
+    /// Has a group that got a family after bins were installed notice changes among its children.
+    virtual void watch(osg::Group& group) = 0;
     /// Gives a clone of its root a database of its own.
     virtual void installOnClone(osg::Node& root) = 0;
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
+    /// Null: it is not known yet.
+    [[nodiscard]] const osg::Node* root() const { return _root; }
     /// Whether bins cull at present. If not, cull traversals only look for work. Requires: no cull traversal runs.
     void setCulling(bool is) { _isCulling = is; }
     [[nodiscard]] bool isCulling() const { return _isCulling; }
@@ -83,6 +87,10 @@ public:
 
     /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
     void noteRead(osg::Node& content, unsigned int generation);
+
+    /// The same of a tile that the application attaches itself. When it is in the scene, the next update has the groups
+    /// that it was attached to test it with its siblings.
+    void noteAdded(osg::Node& tile, unsigned int generation);
 
     /// Null: there is none, or none yet.
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
@@ -177,6 +185,7 @@ private:
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
+    std::vector<osg::observer_ptr<osg::Node>> _added;       // by the application, not attached yet
     std::map<TileKey, Widening> _corrections;
     std::vector<osg::observer_ptr<InstalledTile>> _toWiden;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;

@@ -65,6 +65,15 @@ void warnOfDrawable(const osg::Node& node) {
              << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
 }
 
+// What the application says of the frame of the node that bins are installed on.
+TileFrame frameBy(const CullOptions& options) {
+    TileFrame frame;
+    frame.ground = options.ground;
+    if (options.globe)
+        frame.ellipsoid = new osg::EllipsoidModel(options.globe->equatorialRadius(), options.globe->polarRadius());
+    return frame;
+}
+
 bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
@@ -89,14 +98,17 @@ bool hasTileBelow(osg::Node& subgraph) {
 
 }  // namespace
 
-BinInstaller::BinInstaller(const CullOptions& options) : _options(options), _coverage(std::make_shared<Coverages>()) {}
+BinInstaller::BinInstaller(const CullOptions& options)
+    : TileFinder(frameBy(options)), _options(options), _coverage(std::make_shared<Coverages>()) {}
 
 BinInstaller::~BinInstaller() {
     takeOff(_nested);
 }
 
 void BinInstaller::continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent) {
-    setFrame(frame);
+    TileFrame own = frame;
+    own.ground = _options.ground;
+    setFrame(own);
     _isReading = true;
     _database = database;
     _index = database->index();
@@ -137,10 +149,14 @@ void BinInstaller::placeFamilies() {
         osg::Node& group = **at;
         if (!TileFamily::place(group)) continue;
         Database::trustMeshes(group);
-        // it notices where the application takes the watch of a tile away
-        if (!ContentWatch::isOn(group)) ContentWatch::place(group, {});
+        watchFamily(group);
     }
     _groups.clear();
+}
+
+// It notices where the application takes the watch of a tile away.
+void BinInstaller::watchFamily(osg::Node& group) {
+    if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group)) ContentWatch::place(group, {});
 }
 
 bool BinInstaller::installsBins() const {
@@ -160,11 +176,22 @@ void BinInstaller::installAt(osg::Node& root) {
     if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
     if (!isGlobe && !_keepsDatabases) detachDatabase(root);
     if (_database) _database->setOptions(_options);
+    const bool isNamed = !isGlobe && _options.globe;
+    if (isNamed) beginNamedGlobe(root);
     root.accept(*this);
     if (_options.method == Method::None) NoCulling::place(root);
-    placeFamilies();
-    if (_database) _database->widenLoaded();
-    if (!isGlobe && _database && installsBins()) attachDatabase(root, *_database, false);
+    // the tiles of a globe without any are still to come
+    if (isNamed && _installed == 0 && _paging.empty()) _coverage->clear();
+    finish();
+    // tiles may be added also while other methods cull
+    if (!isGlobe && _database && (installsBins() || isNamed))
+        attachDatabase(root, *_database, isNamed && installsBins());
+}
+
+void BinInstaller::beginNamedGlobe(osg::Node& root) {
+    if (!_database) _database = newDatabase(frame().ellipsoid, nullptr);
+    _database->setRoot(root);
+    (*_coverage)[{nullptr, frame().file}].expectGlobe();
 }
 
 void BinInstaller::apply(osg::Node& node) {
@@ -221,7 +248,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (!isKept && _installed == before && _paging.empty()) _coverage->clear();
     finish();
     if (isRefit) return;
-    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own, true);
+    const bool hasTiles = _installed > before || !_paging.empty() || _options.globe;
+    if (installsBins() && hasTiles) return attachDatabase(node, *own, true);
     // tiles that are on their way may have bins
     if (isKept) attachDatabase(node, *own, false);
 }
@@ -237,7 +265,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
 }
 
 bool BinInstaller::mayHaveBin(const FoundTile& tile) {
-    if (isInstanced(*tile.node, tile.frame)) {
+    if (isInstanced(*tile.node, tile.frame, database().root())) {
         database().report(Finding::StrayTile, tile.frame.file);
         return false;
     }

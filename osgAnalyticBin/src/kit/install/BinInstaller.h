@@ -75,11 +75,14 @@ private:
 
     // Prepares for a file that is paged below a tile of the database (`parent` null: below no tile).
     void continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent);
+    // Makes the root of a scene without a CoordinateSystemNode that of CullOptions::globe.
+    void beginNamedGlobe(osg::Node& root);
     // Fits the loaded tiles of an installed database again.
     void refit(osg::Node& node, Database& database);
     // Checks whether the tiles of each file cover their parent.
     void finish();
     void placeFamilies();
+    static void watchFamily(osg::Node& group);
 
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();

@@ -14,12 +14,14 @@ class BinInstaller::InstallingDatabase final : public Database {
 public:
     using Database::Database;
 
-    void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override {
+    std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override {
         BinInstaller installer(options());
         installer.continueBelow(this, frame, parent);
         content.accept(installer);
         installer.finish();
+        return installer.installed();
     }
+    void watch(osg::Group& group) override { watchFamily(group); }
     void refit(osg::Node& root) override {
         BinInstaller installer(options());
         installer.refit(root, *this);

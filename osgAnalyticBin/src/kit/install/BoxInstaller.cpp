@@ -99,8 +99,10 @@ public:
         setMaking(index.making.get());
     }
 
-    void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override;
+    std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override;
     void refit(osg::Node& root) override;
+    // a set has no families
+    void watch(osg::Group&) override {}
     void installOnClone(osg::Node& root) override { (void)installBoxes(*root.asGroup(), options()); }
 
     // Installs bins on all that is loaded. Returns: the number of LODs.
@@ -259,10 +261,12 @@ void removeBelow(osg::Group& root) {
     root.accept(remover);
 }
 
-void BoxSet::install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) {
+std::size_t BoxSet::install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) {
     auto* const tile = static_cast<BoxTile*>(parent);
-    const FileContent found = BoxInstaller(*this).install(content, frame.file, tile);
+    BoxInstaller installer(*this);
+    const FileContent found = installer.install(content, frame.file, tile);
     if (tile) grow(*tile, found);
+    return installer.installed();
 }
 
 void BoxSet::cullByBin(osg::LOD& node, BoxTile& tile) {

@@ -15,6 +15,7 @@
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -23,7 +24,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-void reportMissing(osg::Node& node) {
+void reportMissing(osg::Node& node, const CullOptions& options) {
     bool hasGlobe = false;
     std::size_t tiles = 0, stored = 0;
     forEachNode(node, [&](osg::Node& at) {
@@ -31,6 +32,8 @@ void reportMissing(osg::Node& node) {
         if (dynamic_cast<osgTerrain::TerrainTile*>(&at) || dynamic_cast<osg::PagedLOD*>(&at)) ++tiles;
         if (hasStoredBin(at)) ++stored;
     });
+    // they may be added later
+    if (options.globe && tiles + stored == 0) return;
     const auto missing = [&]() -> const char* {
         if (stored > 0) return "the bins stored there are not valid, or cannot be compared with what is drawn";
         if (tiles == 0)
@@ -38,8 +41,9 @@ void reportMissing(osg::Node& node) {
                    "again "
                    "when there are some";
         if (hasGlobe) return "none of them has a mesh that is known to be ground";
-        return "no osg::CoordinateSystemNode stands above them. Put one above them; one without an ellipsoid or a text "
-               "says that they are in earth-centred coordinates of WGS 84";
+        return "no osg::CoordinateSystemNode stands above them. Put one above them, or name the globe by the option "
+               "globe="
+               " (globe=wgs84) if they are in earth-centred coordinates";
     };
     OSG_NOTICE << "osgAnalyticBin: 0 tiles got bins, of " << tiles << " PagedLODs and osgTerrain tiles: " << missing()
                << ". OSG's own culling is used." << std::endl;
@@ -51,8 +55,16 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
     installer.installAt(node);
     OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
     const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
-    if (wantsBins && installer.installed() == 0) reportMissing(node);
+    if (wantsBins && installer.installed() == 0) reportMissing(node, options);
     return installer.installed();
+}
+
+// Tells it once: a program that adds tiles adds many.
+std::size_t refuseTile(const char* why) {
+    static std::atomic<bool> hasSaid{false};
+    if (!hasSaid.exchange(true))
+        OSG_WARN << "osgAnalyticBin: addTile(): " << why << " OSG's own culling is used there." << std::endl;
+    return 0;
 }
 
 // Visits the databases that are attached to nodes of a scene.
@@ -91,9 +103,28 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
                         const osgDB::Options* readOptions) {
     // photogrammetry sets look for theirs themselves
     const std::string& database = isMetadataName(databaseFileName) ? std::string() : databaseFileName;
-    const ChosenIndex chosen = chooseIndex(database, readOptions, options.index);
+    // an index numbers the tiles that are found without a name
+    const IndexUse use = options.ground.empty() ? options.index : IndexUse::Off;
+    const ChosenIndex chosen = chooseIndex(database, readOptions, use);
     const std::size_t installed = install(node, options, chosen.index.get());
     makeIndex(node, chosen.making.get());
+    return installed;
+}
+
+std::size_t addTile(osg::Node& database, osg::Node& tile, const osg::Matrixd& parentToEcef) {
+    const osg::ref_ptr<Database> attached = attachedDatabase(database);
+    if (!attached) return refuseTile("the node has no bins: installBins() was not called for it, or without globe=.");
+    if (tile.getNumParents() > 0) return refuseTile("a tile is attached already. Add it before it is attached.");
+    const unsigned int generation = attached->generation();
+    TileFrame frame;
+    frame.ellipsoid = attached->ellipsoid();
+    frame.localToEcef = parentToEcef;
+    frame.file = tile.getName();
+    frame.isBelowTile = true;  // a mesh that pages nothing is a tile
+    // only the application knows what lies between its tiles
+    attached->report(Finding::Gap, frame.file);
+    const std::size_t installed = attached->install(tile, frame, nullptr);
+    attached->noteAdded(tile, generation);
     return installed;
 }
 

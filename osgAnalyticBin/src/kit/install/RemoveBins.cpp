@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../cull/TileFamily.h"
 #include "../database/BinReadFileCallback.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../tile/Carrier.h"
@@ -17,14 +18,20 @@ namespace osgAnalyticBin {
 
 namespace {
 
+// Files below a PagedLOD are read without bins from now on.
+void detachReads(osg::Node& node) {
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+    BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr;
+    if (callback) paged->setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+}
+
 void detach(osg::Node& node) {
     if (Database* const database = attachedDatabase(node)) database->setRemoved();
     detachDatabase(node);
     auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
     BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr;
-    if (!callback) return;
-    callback->database()->setRemoved();
-    paged->setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+    if (callback) callback->database()->setRemoved();
+    detachReads(node);
 }
 
 void remove(Carrier& carrier) {
@@ -37,6 +44,20 @@ void remove(Carrier& carrier) {
     }
 }
 
+// Takes off callbacks of tiles and groups above tiles, and has `detach` do the rest with each node.
+template <class Detach>
+void removeBelow(osg::Node& node, const Detach& detach) {
+    NestedCallbacks nested;
+    removeCallbacksBelow(node, nested);
+    std::vector<osg::ref_ptr<Carrier>> carriers;
+    forEachNode(node, [&](osg::Node& at) {
+        detach(at);
+        if (auto* const carrier = dynamic_cast<Carrier*>(&at)) carriers.emplace_back(carrier);
+    });
+    takeOff(nested);
+    for (const auto& carrier : carriers) remove(*carrier);
+}
+
 }  // namespace
 
 // An installer leaves some things on a scene even with Method::None, so that bins can be installed later: callbacks of
@@ -45,15 +66,18 @@ void removeBins(osg::Node& node) {
     CullOptions options;
     options.method = Method::Sphere;
     (void)installBins(node, options);
-    NestedCallbacks nested;
-    removeCallbacksBelow(node, nested);
-    std::vector<osg::ref_ptr<Carrier>> carriers;
-    forEachNode(node, [&carriers](osg::Node& at) {
-        detach(at);
-        if (auto* const carrier = dynamic_cast<Carrier*>(&at)) carriers.emplace_back(carrier);
-    });
-    takeOff(nested);
-    for (const auto& carrier : carriers) remove(*carrier);
+    removeBelow(node, detach);
+}
+
+void removeTile(osg::Node& database, osg::Node& tile) {
+    removeBelow(tile, detachReads);
+    const osg::ref_ptr<Database> attached = attachedDatabase(database);
+    for (osg::Group* const parent : tile.getParents()) {
+        // while it is still there: tiles that are taken away without a word are missed
+        TileFamily::renew(*parent);
+        // its siblings have other numbers then
+        if (attached) attached->noteChanged(*parent);
+    }
 }
 
 }  // namespace osgAnalyticBin

@@ -19,8 +19,9 @@ namespace osgAnalyticBin {
 class AnalyticBinCullCallback;
 class InstalledTile;
 
-/// Whether a tile is drawn in several places of its globe: no bin holds for all of them.
-[[nodiscard]] bool isInstanced(const osg::Node& node, const TileFrame& frame);
+/// Whether a tile is drawn in several places of its globe: no bin holds for all of them. `root`: of the tile's
+/// database; null: a CoordinateSystemNode.
+[[nodiscard]] bool isInstanced(const osg::Node& node, const TileFrame& frame, const osg::Node* root);
 
 /// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);

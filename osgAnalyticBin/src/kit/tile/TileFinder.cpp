@@ -145,6 +145,7 @@ bool TileFinder::isTile(osg::Node& node) const {
     // OSG culls a drawable after its callbacks, whatever these say
     if (hasStoredBin(node)) return !node.asDrawable();
     if (!_frame.isKnown()) return false;
+    if (!_frame.ground.empty()) return node.getName() == _frame.ground && !node.asDrawable() && isFixedMesh(node);
     if (isTerrainTile(node)) return true;
     if (dynamic_cast<osg::PagedLOD*>(&node)) {
         const auto meshes = ownMeshes(node);

@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles that an application attaches by itself, in the manner of a flight simulator: no CoordinateSystemNode stands
+// above them, they come in any thread, and their ground has a name.
+
+#include "ApplicationGlobe.h"
+#include "DatabaseFixture.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <gtest/gtest.h>
+#include <osg/LOD>
+
+#include <support/CapturedNotes.h>
+#include <thread>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+const core::Ellipsoid kEarth(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+
+CullOptions onEarth() {
+    CullOptions options;
+    options.globe = kEarth;
+    return options;
+}
+
+// The tiles of a MeshGlobe below a plain group.
+struct PlainGlobe : MeshGlobe {
+    PlainGlobe() {
+        scene = new osg::Group;
+        for (const auto& tile : tiles) scene->addChild(tile);
+        root->removeChildren(0, root->getNumChildren());
+    }
+};
+
+// Leaves of 45 degrees, each in a group, that are not attached yet.
+struct AddedGlobe {
+    AddedGlobe() {
+        for (int i = 0; i < 32; ++i) {
+            const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
+            tiles.push_back(new osg::Group);
+            tiles.back()->addChild(makeMeshTile(extentsDeg(south, south + 45, west, west + 45), 0.0));
+        }
+    }
+
+    void addAll() {
+        for (const auto& tile : tiles) {
+            EXPECT_EQ(addTile(*scene, *tile), 1u);
+            scene->addChild(tile);
+        }
+        update(*scene);
+    }
+    [[nodiscard]] bool draws(osg::Node& tile, const CullView& view) {
+        return cull(*scene, view, *visitor, ++frame).drawn.count(drawableOf(tile)) > 0;
+    }
+    // The tile on the other side of the globe, from above the middle of tile 19, which looks down.
+    [[nodiscard]] bool drawsAntipode() { return draws(*tiles[15], MeshGlobe::fromAbove()); }
+
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    std::vector<osg::ref_ptr<osg::Group>> tiles;
+    osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    unsigned int frame = 0;
+};
+
+TEST(NamedGlobe, StandsForACoordinateSystem) {
+    PlainGlobe plain;
+    EXPECT_EQ(installBins(*plain.scene), 0u);
+    ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
+    EXPECT_FALSE(plain.drawsAntipode()) << "no horizon";
+    EXPECT_TRUE(plain.draws(*plain.tiles[19], MeshGlobe::fromAbove()));
+}
+
+TEST(NamedGlobe, OutlivesOtherMethods) {
+    PlainGlobe plain;
+    ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
+    CullOptions spheres = onEarth();
+    spheres.method = Method::Sphere;
+    EXPECT_EQ(setCullOptions(*plain.scene, spheres), 0u);
+    EXPECT_TRUE(plain.drawsAntipode());
+    EXPECT_EQ(setCullOptions(*plain.scene, onEarth()), 32u);
+    EXPECT_FALSE(plain.drawsAntipode());
+    removeBins(*plain.scene);
+    EXPECT_TRUE(plain.drawsAntipode());
+    EXPECT_EQ(plain.scene->getCullCallback(), nullptr);
+}
+
+TEST(NamedGlobe, DrawsATileInSeveralPlaces) {
+    PlainGlobe plain;
+    const osg::ref_ptr<osg::MatrixTransform> elsewhere =
+        new osg::MatrixTransform(osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 0, 1)));
+    elsewhere->addChild(plain.tiles[15]);
+    plain.scene->addChild(elsewhere);
+    EXPECT_EQ(installBins(*plain.scene, onEarth()), 31u);
+    EXPECT_TRUE(plain.drawsAntipode());
+}
+
+TEST(AddedTiles, AreCulledByTheirBins) {
+    AddedGlobe globe;
+    CullOptions options = declaredHorizon();
+    options.globe = kEarth;
+    EXPECT_EQ(installBins(*globe.scene, options), 0u);
+    globe.addAll();
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_FALSE(globe.drawsAntipode());
+}
+
+TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {
+    AddedGlobe globe;
+    (void)installBins(*globe.scene, onEarth());
+    globe.addAll();
+    EXPECT_TRUE(globe.drawsAntipode()) << "nobody knows what lies between the tiles";
+    EXPECT_FALSE(globe.draws(*globe.tiles[19], beside(ecefDeg(22.5, -22.5, 1e5))));
+}
+
+TEST(AddedTiles, AreTestedWithTheirSiblings) {
+    AddedGlobe globe;
+    // behind the callback of the database
+    const auto hasFamily = [&] { return globe.scene->getCullCallback()->getNestedCallback() != nullptr; };
+    (void)installBins(*globe.scene, onEarth());
+    globe.addAll();
+    EXPECT_TRUE(hasFamily());
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+}
+
+TEST(AddedTiles, ComeInSeveralThreads) {
+    AddedGlobe globe;
+    (void)installBins(*globe.scene, onEarth());
+    std::vector<std::thread> threads;
+    for (std::size_t first = 0; first < 4; ++first) {
+        threads.emplace_back([&globe, first] {
+            for (std::size_t i = first; i < 32; i += 4) EXPECT_EQ(addTile(*globe.scene, *globe.tiles[i]), 1u);
+        });
+    }
+    for (int i = 0; i < 50; ++i) (void)globe.drawsAntipode();
+    for (std::thread& thread : threads) thread.join();
+    for (const auto& tile : globe.tiles) globe.scene->addChild(tile);
+    update(*globe.scene);
+    EXPECT_EQ(findTiles(*globe.scene).size(), 0u) << "they are no tiles without an ellipsoid";
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+}
+
+TEST(AddedTiles, FollowOtherOptionsAlsoOnTheirWay) {
+    AddedGlobe globe;
+    CullOptions options = declaredHorizon();
+    options.globe = kEarth;
+    (void)installBins(*globe.scene, options);
+    for (const auto& tile : globe.tiles) EXPECT_EQ(addTile(*globe.scene, *tile), 1u);
+    CullOptions spheres = options;
+    spheres.method = Method::Sphere;
+    (void)setCullOptions(*globe.scene, spheres);
+    for (const auto& tile : globe.tiles) globe.scene->addChild(tile);
+    (void)globe.drawsAntipode();
+    update(*globe.scene);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
+TEST(AddedTiles, LeaveNothingBehindWhenTheyAreRemoved) {
+    AddedGlobe globe;
+    CullOptions options = declaredHorizon();
+    options.globe = kEarth;
+    (void)installBins(*globe.scene, options);
+    globe.addAll();
+    (void)globe.drawsAntipode();
+    update(*globe.scene);
+    osg::Node& leaf = *globe.tiles[3]->getChild(0);
+    removeTile(*globe.scene, *globe.tiles[3]);
+    EXPECT_EQ(globe.tiles[3]->getCullCallback(), nullptr);
+    EXPECT_EQ(globe.tiles[3]->getComputeBoundingSphereCallback(), nullptr);
+    EXPECT_EQ(leaf.getCullCallback(), nullptr);
+    globe.scene->removeChild(globe.tiles[3]);
+    // siblings have other numbers for a frame
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    update(*globe.scene);
+    EXPECT_FALSE(globe.drawsAntipode());
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    ASSERT_EQ(addTile(*globe.scene, *globe.tiles[3]), 1u) << "again";
+}
+
+TEST(AddedTiles, StandInTheFrameOfTheirParent) {
+    AddedGlobe globe;
+    CullOptions options = declaredHorizon();
+    options.globe = kEarth;
+    (void)installBins(*globe.scene, options);
+    const osg::Matrixd half = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 0, 1));
+    const osg::ref_ptr<osg::MatrixTransform> parent = new osg::MatrixTransform(half);
+    globe.scene->addChild(parent);
+    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[15], half), 1u);
+    parent->addChild(globe.tiles[15]);
+    update(*globe.scene);
+    EXPECT_FALSE(globe.drawsAntipode() != globe.draws(*globe.tiles[15], MeshGlobe::fromAbove()));
+    // tile 15 is south of the equator, east of 135 degrees: turned, east of 45 degrees west
+    EXPECT_TRUE(globe.draws(*globe.tiles[15], downTo(-22.5, -22.5)));
+    EXPECT_FALSE(globe.draws(*globe.tiles[15], downTo(-22.5, 157.5)));
+}
+
+TEST(AddedTiles, AreRefusedWhereThereIsNoDatabase) {
+    AddedGlobe globe;
+    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[0]), 0u);
+    (void)installBins(*globe.scene, onEarth());
+    globe.scene->addChild(globe.tiles[0]);
+    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[0]), 0u) << "a cull traversal may be in it";
+    EXPECT_EQ(globe.tiles[0]->getChild(0)->getCullCallback(), nullptr);
+}
+
+// What SimGear makes of a file: a transform with a group of that name, and objects.
+struct NamedGround {
+    NamedGround() {
+        ground->setName("BTGTerrainGroup");
+        ground->addChild(makeMeshTile(extentsDeg(0, 10, 0, 10), 0.0));
+        tile->addChild(ground);
+        tile->addChild(tower);
+        const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+        lod->addChild(tile, 0.0f, 1e9f);
+        content->addChild(lod);
+    }
+
+    osg::ref_ptr<osg::Group> content = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform;
+    osg::ref_ptr<osg::Group> ground = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> tower = makeTower(ecefDeg(5, 5, 1e5), 1000.0f);
+};
+
+TEST(NamedGround, AloneHasABin) {
+    NamedGround named;
+    AddedGlobe globe;
+    CullOptions options = onEarth();
+    options.ground = "BTGTerrainGroup";
+    (void)installBins(*globe.scene, options);
+    ASSERT_EQ(addTile(*globe.scene, *named.content), 1u);
+    ASSERT_TRUE(installedOn(*named.ground));
+    globe.scene->addChild(named.content);
+    update(*globe.scene);
+    EXPECT_LT(installedOn(*named.ground)->getBin().bin().altitude().upper, 1000.0) << "the tower is in the bin";
+    const CullView above = beside(ecefDeg(5, 5, 1e5));
+    EXPECT_FALSE(globe.draws(*named.ground, above));
+    EXPECT_TRUE(globe.draws(*named.tower, above));
+    EXPECT_TRUE(globe.draws(*named.ground, downTo(5, 5)));
+}
+
+TEST(NamedGround, IsFoundInDatabases) {
+    NamedGround named;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    root->addChild(named.content);
+    EXPECT_EQ(installBins(*root), 0u);
+    CullOptions options;
+    options.ground = "BTGTerrainGroup";
+    EXPECT_EQ(installBins(*root, options), 1u);
+    EXPECT_TRUE(installedOn(*named.ground));
+    options.ground = "Ground";
+    EXPECT_EQ(installBins(*root, options), 0u);
+    EXPECT_FALSE(installedOn(*named.ground));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
