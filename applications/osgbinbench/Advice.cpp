@@ -45,6 +45,10 @@ double timeOf(const Figures& sum) {
     return sum.cullMs;
 }
 
+double coldTimeOf(const Figures& sum) {
+    return sum.cullColdMs;
+}
+
 /// Bins against the better of two methods, over some poses.
 class Judge {
 public:
@@ -92,11 +96,13 @@ std::string tilesSentence(const Comparison& tiles, const Comparison& time) {
            withDecimals(tiles.other, 0) + " (" + times(tiles) + ").";
 }
 
-std::string costSentence(const Comparison& files, const Comparison& time, std::size_t poses) {
+std::string costSentence(const Comparison& files, const Comparison& time, const Comparison& cold, std::size_t poses) {
     const auto perPose = [&](double ms) { return withDecimals(ms / static_cast<double>(poses), 3) + " ms"; };
+    // --flush 0 leaves it out
+    const std::string coldTimes = cold.other > 0.0 ? ", and " + times(cold) + " with cold caches" : "";
     return "They read " + withDecimals(files.bins, 0) + " files where " + files.name + " read " +
            withDecimals(files.other, 0) + " (" + times(files) + "), and a cull takes " + perPose(time.bins) +
-           " where it takes " + perPose(time.other) + " with " + time.name + " (" + times(time) + ").";
+           " where it takes " + perPose(time.other) + " with " + time.name + " (" + times(time) + coldTimes + ").";
 }
 
 std::string whereSentence(const Judge& judge, const std::vector<PathGroup>& paths) {
@@ -121,7 +127,7 @@ std::vector<std::string> adviceOf(const std::vector<std::string>& poses, const s
     for (std::size_t i = 0; i < poses.size(); ++i) all.poses.push_back(i);
     const Comparison tiles = judge.compare(tilesOf, all), files = judge.compare(filesOf, all),
                      time = judge.compare(timeOf, all);
-    return {tilesSentence(tiles, time), costSentence(files, time, poses.size()),
+    return {tilesSentence(tiles, time), costSentence(files, time, judge.compare(coldTimeOf, all), poses.size()),
             whereSentence(judge, pathGroupsOf(poses))};
 }
 

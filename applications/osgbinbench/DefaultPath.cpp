@@ -215,8 +215,8 @@ struct PathMaker {
         constexpr int kViews = 6;
         const Geodetic eye = places.aboveGround(places.moved(top(), 0.0, 0.75 * tile), 0.05 * tile);
         for (int i = 0; i < kViews; ++i) {
-            Geodetic look = places.moved(eye, 2.0 * osg::PI * i / kViews, 10.0 * tile);
-            look.altitude -= 1.5 * tile;
+            Geodetic look = places.moved(eye, 2.0 * osg::PI * i / kViews, tile);
+            look.altitude -= 0.15 * tile;
             add("turning", i + 1, eye, look);
         }
     }

@@ -35,6 +35,13 @@ TEST(Advice, ComparesWithTheBetterOfTheOthersInEachFigure) {
                          "They help on every path that was flown."}));
 }
 
+TEST(Advice, NamesTheTimeWithColdCachesWhereItWasMeasured) {
+    std::vector<MethodFigures> methods{figuresOf("sphere", 30, 30, 1.0, 1.0), figuresOf("bins", 10, 10, 0.5, 0.5)};
+    methods[0].poses[0].cullColdMs = 4.0;
+    methods[1].poses[0].cullColdMs = 3.0;
+    EXPECT_NE(adviceOf(kPoses, methods)[1].find("(0.50 times, and 0.75 times with cold caches)"), std::string::npos);
+}
+
 TEST(Advice, SaysWhereBinsDoNotHelp) {
     const Sentences sentences =
         adviceOf(kPoses, {figuresOf("sphere", 30, 30, 1.0, 1.0), figuresOf("bins", 10, 30, 0.5, 1.5)});
