@@ -50,7 +50,7 @@ path_options() {
 high=$(path_options nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning)
 low=$(path_options valley nap hilltop helicopter drone approach)
 peers=sphere,cluster,cluster+raster,orientedbox+horizon+edges
-default=quadratic+horizon+edges+autoocclusion
+default=bins
 
 step "High views"
 # shellcheck disable=SC2086

@@ -18,10 +18,11 @@ namespace {
 // The bases that bins stand behind.
 constexpr std::array<const char*, 6> kBinBases{"box", "orientedbox", "corners", "paper", "quadratic", "exact"};
 
-constexpr std::array<const char*, 21> kAll{"none",
+constexpr std::array<const char*, 22> kAll{"none",
                                            "sphere",
                                            "cluster",
                                            kRasterMethod,
+                                           kDefaultMethod,
                                            "box",
                                            "box+horizon",
                                            "orientedbox",
@@ -51,17 +52,17 @@ bool takeSuffix(std::string& name, const std::string& suffix) {
 }  // namespace
 
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
+    // an index that becomes complete meanwhile would change the figures
+    if (isDefault) return database + ".(index=on" + (binOptions.empty() ? "" : "," + binOptions) + ").analyticbin";
     std::string parameters = "method=" + loaderMethod;
     if (usesBins()) {
-        // an index that becomes complete meanwhile would change the figures
         parameters += ",index=on";
         // the last item of a key counts
         if (usesHorizon) parameters += ",horizon=declared";
         if (!binOptions.empty()) parameters += "," + binOptions;
         if (!usesHorizon) parameters += ",horizon=off";
         parameters += usesEdges ? ",edges=on" : ",edges=off";
-        const std::string use = usesOcclusion ? (mayRest ? "auto" : "on") : "off";
-        parameters += ",occlusion=" + use;
+        parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
     }
     return database + ".(" + parameters + (usesRivals() ? ").binrival" : ").analyticbin");
 }
@@ -88,20 +89,25 @@ CullMethod cullMethodFromName(const std::string& name) {
                                                   : Clusters::Remove;
         return method;
     }
+    method.isDefault = name == kDefaultMethod;
+    if (method.isDefault) {
+        method.loaderMethod = name;
+        method.usesHorizon = method.usesEdges = method.usesOcclusion = true;
+        return method;
+    }
     std::string base = name;
-    method.mayRest = takeSuffix(base, "+autoocclusion");
-    method.usesOcclusion = method.mayRest || takeSuffix(base, "+occlusion");
+    method.usesOcclusion = takeSuffix(base, "+occlusion");
     method.usesEdges = takeSuffix(base, "+edges");
     method.usesHorizon = takeSuffix(base, "+horizon");
     if (std::find(kBinBases.begin(), kBinBases.end(), base) != kBinBases.end()) method.loaderMethod = base;
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
     if (!method.loaderMethod.empty() && makesSense) return method;
-    throw UsageError("--methods: unknown method \"" + name +
-                     "\"; use none, sphere, cluster, cluster+raster, oracle, all, or box, orientedbox, corners, paper, "
-                     "quadratic or exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with "
-                     "+horizon, also +occlusion or "
-                     "+autoocclusion");
+    throw UsageError(
+        "--methods: unknown method \"" + name +
+        "\"; use none, sphere, cluster, cluster+raster, bins, oracle, all, or box, orientedbox, corners, paper, "
+        "quadratic or exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with "
+        "+horizon, also +occlusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {

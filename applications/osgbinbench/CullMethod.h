@@ -11,7 +11,7 @@
 namespace osgAnalyticBin::bench {
 
 /// A way to cull a database, by the name that the command line and the tables use:
-/// BASE[+horizon][+edges][+occlusion or +autoocclusion]. A plain base culls by the frustum's planes alone.
+/// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for, or binrival for another's rule.
@@ -20,8 +20,8 @@ struct CullMethod {
     bool usesEdges = false;
     /// Whether terrain hides terrain.
     bool usesOcclusion = false;
-    /// Whether occlusion rests by itself where it does not pay.
-    bool mayRest = false;
+    /// Whether bins have the options that they have by default.
+    bool isDefault = false;
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
     Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.
@@ -45,6 +45,9 @@ struct CullMethod {
 /// The method that all others are judged by: nothing is culled.
 inline constexpr const char* kReferenceMethod = "none";
 
+/// Bins with the kit's default options, as installBins() and the pseudo-loader analyticbin put them on a database.
+inline constexpr const char* kDefaultMethod = "bins";
+
 /// What culling would cost if tests were free: the verdicts of the method below, repeated. No program can cull so.
 inline constexpr const char* kOracleMethod = "oracle";
 inline constexpr const char* kReplayedMethod = "exact+horizon+edges";
@@ -55,8 +58,8 @@ inline constexpr const char* kRasterMethod = "cluster+raster";
 /// Stands for all methods that are worth comparing.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", "cluster+raster", "oracle", and box, orientedbox, corners, paper, quadratic and exact
-/// with their suffixes. Throws: Failure for a name that is unknown or makes no sense.
+/// "none", "sphere", "cluster", "cluster+raster", "bins", "oracle", and box, orientedbox, corners, paper, quadratic and
+/// exact with their suffixes. Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
 /// The methods in the order given, each once. The reference comes first, whether it was named or not, and the method

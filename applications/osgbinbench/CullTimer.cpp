@@ -5,6 +5,7 @@
 
 #include "CacheFlusher.h"
 #include "CullStage.h"
+#include "Interruption.h"
 #include "Quantiles.h"
 
 #include <utility>
@@ -67,6 +68,7 @@ std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>
     std::vector<Turns> stages;
     for (const auto& scene : scenes) stages.emplace_back(*scene);
     for (int round = 0; round < rounds; ++round) {
+        support::throwIfStopRequested();
         for (std::size_t i = 0; i < stages.size(); ++i)
             stages[(i + static_cast<std::size_t>(round)) % stages.size()].take(
                 round % kRoundsForOneCold == 0 ? &caches : nullptr);

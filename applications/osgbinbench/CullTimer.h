@@ -26,7 +26,7 @@ struct CullTimes {
 /// scenes take turns, starting with another one each round, so that what slows the machine down slows all of them;
 /// every turn begins with traversals that are not timed, and every fourth, from the first on, ends with one after
 /// `flushMebibytes` of other memory were touched; 0: without that one.
-/// Requires: a viewer at rest. Returns: the times of each scene.
+/// Requires: a viewer at rest. Returns: the times of each scene. Throws: Interrupted.
 [[nodiscard]] std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
                                                int flushMebibytes);
 

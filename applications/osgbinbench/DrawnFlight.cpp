@@ -4,6 +4,7 @@
 #include "DrawnFlight.h"
 
 #include "BenchViewer.h"
+#include "Interruption.h"
 #include "Quantiles.h"
 
 #include <iostream>
@@ -27,6 +28,8 @@ public:
         viewer.show(_scene.root(), _scene.camera().getCullingMode());
         viewer.startTimes();
         for (const flight::CameraPose& pose : frames) {
+            // later rounds are flown to their end, so that all methods have flown as far
+            if (_times.empty()) support::throwIfStopRequested();
             _scene.setPose(pose);
             viewer.setView(_scene.camera());
             viewer.timeFrame();
@@ -83,7 +86,7 @@ std::vector<DrawnFigures> flyDrawn(const Settings& settings, const std::vector<C
     BenchViewer viewer(settings.width, settings.height, settings.threading);
     viewer.sortByState();
     const auto flights = flightsThatDraw(settings, methods, watch);
-    for (std::size_t round = 0; round < kRounds; ++round) {
+    for (std::size_t round = 0; round < kRounds && (round == 0 || !support::stopRequested); ++round) {
         std::cerr << "osgbinbench: " << frames.size() << " frames drawn with paging live, round " << round + 1 << " of "
                   << kRounds << std::endl;
         for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);

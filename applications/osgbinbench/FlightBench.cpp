@@ -3,6 +3,8 @@
 
 #include "FlightBench.h"
 
+#include "Interruption.h"
+#include "ProgressLine.h"
 #include "Quantiles.h"
 
 #include <algorithm>
@@ -105,6 +107,12 @@ std::vector<std::unique_ptr<Flight>> flightsOf(const Settings& settings, const s
     return flights;
 }
 
+// Methods stop together: each has flown as far as the others.
+bool isStopped(std::size_t done) {
+    if (done == 0) support::throwIfStopRequested();
+    return support::stopRequested;
+}
+
 std::vector<FlightFigures> figuresOf(const std::vector<std::unique_ptr<Flight>>& flights) {
     std::vector<FlightFigures> figures;
     for (const auto& flight : flights) figures.push_back(flight->figures());
@@ -115,9 +123,11 @@ std::vector<FlightFigures> figuresOf(const std::vector<std::unique_ptr<Flight>>&
 
 std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
                                            const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
-    std::cerr << "osgbinbench: " << frames.size() << " frames with paging live" << std::endl;
     const auto flights = flightsOf(settings, methods, watch);
-    for (std::size_t begin = 0; begin < frames.size(); begin += kFramesPerTurn) {
+    support::ProgressLine progress(stderr);
+    for (std::size_t begin = 0; begin < frames.size() && !isStopped(begin); begin += kFramesPerTurn) {
+        progress.show(static_cast<double>(begin) / static_cast<double>(frames.size()),
+                      "osgbinbench: " + std::to_string(frames.size()) + " frames with paging live, ");
         const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
         for (std::size_t i = 0; i < flights.size(); ++i)
             flights[(i + begin / kFramesPerTurn) % flights.size()]->takeTurn(&frames[begin], frames.data() + end);
@@ -127,9 +137,11 @@ std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::
 
 std::vector<FlightFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
                                 const std::vector<flight::CameraPose>& poses, FileWatch& watch) {
-    std::cerr << "osgbinbench: " << poses.size() << " jumps with paging live" << std::endl;
     const auto flights = flightsOf(settings, methods, watch);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    support::ProgressLine progress(stderr);
+    for (std::size_t i = 0; i < poses.size() && !isStopped(i); ++i) {
+        progress.show(static_cast<double>(i) / static_cast<double>(poses.size()),
+                      "osgbinbench: " + std::to_string(poses.size()) + " jumps with paging live, ");
         for (std::size_t k = 0; k < flights.size(); ++k)
             flights[(k + i) % flights.size()]->jumpTo(poses[i], settings.timeout);
     }

@@ -5,6 +5,7 @@
 
 #include "CsvTable.h"
 #include "Failure.h"
+#include "Interruption.h"
 #include "RasterCulling.h"
 
 #include <osgDB/DatabasePager>
@@ -126,6 +127,7 @@ Failure MethodScene::lateAt(const flight::CameraPose& pose) const {
 
 void MethodScene::awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const {
     do {
+        support::throwIfStopRequested();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
         if (passed.count() > _settings.timeout) throw lateAt(pose);
         if (_paged->isReading()) std::this_thread::sleep_for(kLook);

@@ -52,7 +52,7 @@ public:
     /// Stands at a pose until every file that is wanted there has been read and merged. All files that one frame asks
     /// for are merged before the next frame asks for more, so that what is read depends on nothing but the pose and
     /// what was loaded before. Requires: load(), and no other scene's turn since.
-    /// Throws: Failure when that takes longer than the timeout.
+    /// Throws: Failure when that takes longer than the timeout, Interrupted.
     void settle(const flight::CameraPose& pose);
 
     /// One frame from a pose, `seconds` after the last one, wherever the pager is. Requires: as settle().

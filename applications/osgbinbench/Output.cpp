@@ -4,9 +4,9 @@
 #include "Output.h"
 
 #include "CullMethod.h"
+#include "Interruption.h"
 #include "PathGroups.h"
 #include "RowTable.h"
-#include "TextTable.h"
 #include "ThreadingName.h"
 
 #include <osg/Version>
@@ -38,6 +38,7 @@ Json headOf(const Settings& settings, const char* mode) {
     json["flush_mib"] = settings.flush;
     json["expiry"] = settings.expiry;
     json["osg"] = osgGetVersion();
+    if (support::stopRequested) json["interrupted"] = true;
     return json;
 }
 
@@ -102,7 +103,7 @@ void addTimesOverOracle(Json& methods) {
 }
 
 // A column for each method: the longer a table's lines, the harder they are to read.
-void print(std::ostream& output, const std::string& title, const Json& methods, int decimals) {
+TextTable tableOf(const std::string& title, const Json& methods, int decimals) {
     TextTable table(1);
     std::vector<std::string> head{title};
     for (const auto& method : methods.items()) head.push_back(method.key());
@@ -113,17 +114,16 @@ void print(std::ostream& output, const std::string& title, const Json& methods, 
         for (const Json& sums : methods) cells.push_back(cellText(sums[figure.key()], decimals));
         table.add(std::move(cells));
     }
-    table.print(output);
+    return table;
 }
 
-void printRatios(std::ostream& output, const Json& methods) {
+void addRatios(std::vector<TextTable>& tables, const Json& methods) {
     for (const char* const name : kComparedWith) {
         if (!methods.contains(name)) continue;
         Json ratios;
         for (const auto& method : methods.items())
             ratios[method.key()] = report::ratiosOf(method.value(), methods[name]);
-        output << '\n';
-        print(output, std::string("ratio to ") + name, ratios, 0);
+        tables.push_back(tableOf(std::string("ratio to ") + name, ratios, 0));
     }
 }
 
@@ -136,10 +136,7 @@ std::string csvByMethod(const Json& methods) {
     return report::csvOf(rows);
 }
 
-void printByPath(std::ostream& output, const std::vector<std::string>& poses,
-                 const std::vector<MethodFigures>& methods) {
-    const std::vector<PathGroup> groups = pathGroupsOf(poses);
-    if (groups.size() < 2) return;
+TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<MethodFigures>& methods) {
     std::vector<std::string> columns{"truth_tiles",      "drawn_tiles",     "drawn/truth",
                                      "triangles",        "files_requested", "false_culls",
                                      "differing_pixels", kCullColumn,       kCullColdColumn};
@@ -163,8 +160,14 @@ void printByPath(std::ostream& output, const std::vector<std::string>& poses,
             table.add(std::move(cells));
         }
     }
-    output << '\n';
-    table.print(output);
+    return table;
+}
+
+// A table of sums, and their ratios.
+std::vector<TextTable> tablesOf(const char* title, const Json& sums, int decimals) {
+    std::vector<TextTable> tables{tableOf(title, sums, decimals)};
+    addRatios(tables, sums);
+    return tables;
 }
 
 }  // namespace
@@ -216,26 +219,30 @@ std::string jsonOf(const Settings& settings, const std::vector<DrawnFigures>& me
     return json.dump(2) + "\n";
 }
 
-void printTable(std::ostream& output, const std::vector<std::string>& poses,
-                const std::vector<MethodFigures>& methods) {
+std::vector<TextTable> tablesOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
     const Json sums = sumsOf(methods);
     Json shown = sums;
     addTimesOverOracle(shown);
-    print(output, "sums over poses", shown, 3);
-    printRatios(output, sums);
-    printByPath(output, poses, methods);
+    std::vector<TextTable> tables{tableOf("sums over poses", shown, 3)};
+    addRatios(tables, sums);
+    const std::vector<PathGroup> groups = pathGroupsOf(poses);
+    if (groups.size() > 1) tables.push_back(tableByPath(groups, methods));
+    return tables;
 }
 
-void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    const Json figures = flightOf(methods);
-    print(output, "paging live", figures, 4);
-    printRatios(output, figures);
+std::vector<TextTable> tablesOf(const std::vector<FlightFigures>& methods) {
+    return tablesOf("paging live", flightOf(methods), 4);
 }
 
-void printTable(std::ostream& output, const std::vector<DrawnFigures>& methods) {
-    const Json figures = drawnOf(methods);
-    print(output, "drawn with paging live", figures, 3);
-    printRatios(output, figures);
+std::vector<TextTable> tablesOf(const std::vector<DrawnFigures>& methods) {
+    return tablesOf("drawn with paging live", drawnOf(methods), 3);
+}
+
+void print(std::ostream& output, const std::vector<TextTable>& tables) {
+    for (const TextTable& table : tables) {
+        if (&table != &tables.front()) output << '\n';
+        table.print(output);
+    }
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -5,6 +5,7 @@
 
 #include "Figures.h"
 #include "Settings.h"
+#include "TextTable.h"
 
 #include <iosfwd>
 #include <string>
@@ -19,7 +20,8 @@ namespace osgAnalyticBin::bench {
 
 /// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
 /// by name, with "methods" as above over the poses of one path, "by_pose", by method and column, what was measured at
-/// each of "pose_names", and "live", the same of the flight after the poses, unless that is empty.
+/// each of "pose_names", and "live", the same of the flight after the poses, unless that is empty. "interrupted" is
+/// there after Ctrl-C: what was measured until then.
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
                                  const std::vector<MethodFigures>& methods,
                                  const std::vector<FlightFigures>& live = {});
@@ -28,8 +30,12 @@ namespace osgAnalyticBin::bench {
 
 /// Sums for people, with times over those of "oracle" where that was measured, then their ratios to "sphere" and
 /// "cluster" where these were flown, then the most telling sums path by path, if there are several.
-void printTable(std::ostream& output, const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
-void printTable(std::ostream& output, const std::vector<FlightFigures>& methods);
-void printTable(std::ostream& output, const std::vector<DrawnFigures>& methods);
+[[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<std::string>& poses,
+                                                      const std::vector<MethodFigures>& methods);
+[[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<FlightFigures>& methods);
+[[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<DrawnFigures>& methods);
+
+/// One below the other.
+void print(std::ostream& output, const std::vector<report::TextTable>& tables);
 
 }  // namespace osgAnalyticBin::bench

@@ -5,13 +5,14 @@
 
 #include "CullTimer.h"
 #include "Failure.h"
+#include "Interruption.h"
 #include "PictureDifference.h"
+#include "ProgressLine.h"
 #include "VerdictReplay.h"
 
 #include <osgDB/WriteFile>
 
 #include <filesystem>
-#include <iostream>
 
 namespace osgAnalyticBin::bench {
 
@@ -86,11 +87,19 @@ PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& me
 std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>& path) {
     std::vector<MethodFigures> methods;
     for (const auto& scene : _scenes) methods.push_back({scene->method().name, {}});
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        std::cerr << "osgbinbench: pose " << i + 1 << " of " << path.size() << ", " << path[i].name << std::endl;
-        const std::vector<Figures> figures = measure(path[i]);
-        for (std::size_t m = 0; m < methods.size(); ++m) methods[m].poses.push_back(figures[m]);
+    support::ProgressLine progress(stderr);
+    for (std::size_t i = 0; i < path.size() && !support::stopRequested; ++i) {
+        progress.show(static_cast<double>(i) / static_cast<double>(path.size()),
+                      "osgbinbench: pose " + std::to_string(i + 1) + " of " + std::to_string(path.size()) + ", " +
+                          path[i].name + ", ");
+        try {
+            const std::vector<Figures> figures = measure(path[i]);
+            for (std::size_t m = 0; m < methods.size(); ++m) methods[m].poses.push_back(figures[m]);
+        } catch (const support::Interrupted&) {
+            break;
+        }
     }
+    if (methods.front().poses.empty()) throw support::Interrupted("interrupted before the first pose was measured");
     return methods;
 }
 
@@ -143,6 +152,7 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Visit> visits;
     for (const auto& scene : _scenes) visits.push_back(visit(*scene, pose));
     checkReplays(visits, pose.name);
+    if (!_settings.report.empty()) _pictures.emplace_back(pose.name, visits.back().picture);
     const Visit& reference = visits.front();
     MethodScene& view = *_scenes.front();
     learnBins(pose);

@@ -12,10 +12,17 @@
 #include "TilePainter.h"
 #include "TileTruth.h"
 
+#include <osg/Image>
+
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
+
+/// The name of a pose, and what is seen there.
+using Picture = std::pair<std::string, osg::ref_ptr<osg::Image>>;
 
 /// Measures all methods at every pose of a path. At each pose every method starts from the root file alone, so that
 /// its figures do not depend on the poses before; when all have loaded what they want, they are compared.
@@ -25,9 +32,13 @@ public:
     /// Throws: Failure when there is nothing to draw on.
     PoseBench(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch);
 
+    /// Returns: the figures of all poses, or, where the user has asked to stop, of those until then, one at least.
     /// Throws: Failure when the database cannot be read, a pose takes longer than the timeout, a picture cannot be
-    /// saved, or the oracle draws other tiles than what it repeats. Progress goes to stderr.
+    /// saved, or the oracle draws other tiles than what it repeats; Interrupted. Progress goes to stderr.
     [[nodiscard]] std::vector<MethodFigures> run(const std::vector<flight::CameraPose>& path);
+
+    /// For the report: what the last method draws, by pose.
+    [[nodiscard]] const std::vector<Picture>& pictures() const { return _pictures; }
 
 private:
     /// What one method did at the present pose.
@@ -55,6 +66,7 @@ private:
     bool _isBinSceneLoaded = false;
     TilePainter _painter;
     TileTruth _truth;
+    std::vector<Picture> _pictures;
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -68,6 +69,8 @@ std::string linesOf(const Columns& columns) {
 
 std::string footer() {
     const std::string text =
+        "Without --path: flies around the database (overview, oblique, low, turning), says in three sentences whether\n"
+        "bins are worth it, and writes report.html. Ctrl-C ends with what was measured until then.\n\n"
         "Two commands, each with a --help of its own:\n"
         "  osgbinbench report   compares flights that binflight left\n"
         "  osgbinbench scale    measures how culling scales with depth and with tiles in memory\n\n"
@@ -82,9 +85,9 @@ std::string footer() {
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +edges tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on),\n"
-        "+autoocclusion the same while it pays (occlusion=auto). The default of the bins is\n"
-        "quadratic+horizon+edges+autoocclusion.\n"
+        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on).\n"
+        "bins = analytic bins with the kit's default options, as users have them: quadratic, with horizon, edges and\n"
+        "terrain that hides terrain while that pays (occlusion=auto); --options changes them.\n"
         "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
@@ -109,7 +112,8 @@ std::string footer() {
            "\n"
            "Needs a display, except for --compare. Exit code: 0; 1 when something failed (one line says what, and no\n"
            "table is written) or when --compare found something worse; 2 when the command line is wrong.\n\n"
-           "Example:\n"
+           "Examples:\n"
+           "  xvfb-run -a osgbinbench earth.osgb\n"
            "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
 }
 
@@ -124,11 +128,9 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
     app.add_option("--path", settings.paths,
                    "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
-                   "in place of degrees; may be given\nseveral times")
+                   "in place of degrees; may be given\nseveral times (default: around the database)")
         ->allow_extra_args(false);
-    app.add_option("--methods", settings.methods,
-                   "comma-separated, see below, or all (default: none,sphere,cluster,\n"
-                   "quadratic+horizon+edges,exact+horizon+edges)")
+    app.add_option("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
@@ -137,6 +139,9 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
     app.add_option("--json", settings.json, "file for the sums");
     app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
+    app.add_option("--report", settings.report,
+                   "file for a page with the answer, tables, diagrams and pictures\n"
+                   "(HTML; default without --path: report.html)");
     app.add_option("--plot", settings.plot,
                    "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
     app.add_option(
@@ -190,7 +195,9 @@ void check(const Settings& settings) {
         return;
     }
     if (settings.database.empty()) throw UsageError("DATABASE is required; see osgbinbench --help");
-    if (settings.paths.empty()) throw UsageError("--path is required; see osgbinbench --help");
+    if (std::filesystem::path(settings.database).extension().empty() && !std::filesystem::exists(settings.database))
+        throw UsageError("there is no database and no command \"" + settings.database +
+                         "\"; the commands are report and scale, and databases have names like earth.osgb");
     (void)cullMethodsFromNames(settings.methods);
     std::string error;
     if (settings.binOptions.find("method=") != std::string::npos)
@@ -202,7 +209,7 @@ void check(const Settings& settings) {
     if (!binOptions->edges || settings.binOptions.find("edges=") != std::string::npos)
         throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
-        throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +
+        throw UsageError("--options: name methods with or without +occlusion in --methods instead of \"" +
                          settings.binOptions + "\"");
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
     if (settings.draw && settings.frames == 0) throw UsageError("--draw: give --frames, how many are to be drawn");
@@ -215,6 +222,9 @@ void check(const Settings& settings) {
     support::requireFolderOf("--json", settings.json);
     support::requireFolderOf("--pictures", settings.pictures);
     support::requireFolderOf("--plot", settings.plot);
+    if (isLive && !settings.report.empty())
+        throw UsageError("--report: with paging live there are no poses to show; leave --frames and --jumps out");
+    support::requireFolderOf("--report", settings.report);
 }
 
 }  // namespace
@@ -228,6 +238,8 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     takeSize(words.size, settings);
     settings.threading = threadingFromName(words.threading);
     check(settings);
+    const bool isAtPoses = settings.frames == 0 && !settings.jumps;
+    if (settings.paths.empty() && isAtPoses && settings.report.empty()) settings.report = "report.html";
     std::string error;
     settings.expiry = words.expiry ? *words.expiry : cullOptionsFromText(settings.binOptions, error)->expiry;
     return true;

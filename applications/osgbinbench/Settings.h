@@ -17,13 +17,14 @@ namespace osgAnalyticBin::bench {
 /// What the command line asks for.
 struct Settings {
     std::string database;
-    std::vector<std::string> paths;
-    std::vector<std::string> methods{"none", "sphere", "cluster", "quadratic+horizon+edges", "exact+horizon+edges"};
+    std::vector<std::string> paths;  ///< empty: defaultPath()
+    std::vector<std::string> methods{"sphere", "cluster", "bins"};
     std::string binOptions;
     std::string csv;
     std::string json;
     std::string pictures;
     std::string plot;
+    std::string report;
     std::vector<std::string> compared;  ///< two files of --json, old and new, instead of a measurement
     double verticalScale = 1.0;
     int width = 1280;

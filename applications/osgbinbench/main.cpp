@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Advice.h"
 #include "Compare.h"
 #include "ContinuousPath.h"
+#include "DefaultPath.h"
 #include "DrawnFlight.h"
 #include "Failure.h"
 #include "FlightBench.h"
+#include "HtmlReport.h"
+#include "Interruption.h"
 #include "ModuleFolder.h"
 #include "Output.h"
 #include "Plot.h"
@@ -27,7 +31,9 @@ namespace {
 using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kFailed;
+using osgAnalyticBin::support::kInterrupted;
 using osgAnalyticBin::support::kSucceeded;
+using osgAnalyticBin::support::stopRequested;
 using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::bench;
@@ -51,40 +57,79 @@ std::vector<CameraPose> livePath(const std::vector<CameraPose>& path, int frames
     return continuousPath(path, 1 + framesPerLeg * std::max(1, static_cast<int>(path.size()) - 1));
 }
 
+std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
+    if (settings.paths.empty()) return defaultPath(settings, watch);
+    std::string error;
+    auto path = osgAnalyticBin::flight::readCameraPathFiles(settings.paths, error);
+    if (!path) throw Failure(error);
+    return *path;
+}
+
 void write(const Settings& settings, const std::string& csv, const std::string& json) {
     if (!settings.csv.empty()) writeFile(settings.csv, csv);
     if (!settings.json.empty()) writeFile(settings.json, json);
 }
 
+// Says what is missing after Ctrl-C. Returns: empty where nothing is.
+std::string notePartial(std::size_t measured, std::size_t poses) {
+    if (!stopRequested) return {};
+    std::string text = "PARTIAL RESULT: interrupted";
+    if (measured < poses) text += " after " + std::to_string(measured) + " of " + std::to_string(poses) + " poses";
+    std::cout << text << "\n\n";
+    return text;
+}
+
+template <class Figures>
+void tell(const Settings& settings, const std::vector<Figures>& figures) {
+    write(settings, csvOf(figures), jsonOf(settings, figures));
+    (void)notePartial(0, 0);
+    print(std::cout, tablesOf(figures));
+}
+
+// Of each path the first.
+std::vector<Picture> chosenPictures(const std::vector<std::string>& poses, const std::vector<Picture>& pictures) {
+    std::vector<Picture> chosen;
+    for (const PathGroup& path : pathGroupsOf(poses)) chosen.push_back(pictures[path.poses.front()]);
+    return chosen;
+}
+
+void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& methods, std::vector<CameraPose> path,
+                    FileWatch& watch) {
+    const std::size_t planned = path.size();
+    PoseBench bench(settings, methods, watch);
+    const auto figures = bench.run(path);
+    path.resize(figures.front().poses.size());
+    const std::vector<std::string> poses = namesOf(path);
+    std::vector<FlightFigures> live;
+    if (settings.live > 0 && !stopRequested)
+        live = flyContinuously(settings, methods, livePath(path, settings.live), watch);
+    write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures, live));
+    const std::string partial = notePartial(poses.size(), planned);
+    HtmlReport report{settings.database, partial, adviceOf(poses, figures), tablesOf(poses, figures), {}, {}};
+    if (!live.empty())
+        for (auto& table : tablesOf(live)) report.tables.push_back(std::move(table));
+    print(std::cout, report.tables);
+    for (const std::string& sentence : report.sentences)
+        std::cout << (&sentence == &report.sentences.front() ? "\n" : "") << sentence << '\n';
+    std::cout.flush();
+    if (settings.plot.empty() && settings.report.empty()) return;
+    report.diagrams = diagramsOf(poses, figures);
+    if (!settings.plot.empty()) plot(settings.plot, report.diagrams);
+    if (settings.report.empty()) return;
+    report.pictures = chosenPictures(poses, bench.pictures());
+    writeFile(settings.report, report.html());
+    std::cout << "\nThe same with diagrams and pictures: " << settings.report << std::endl;
+}
+
 void measure(const Settings& settings) {
-    std::string error;
-    const auto path = osgAnalyticBin::flight::readCameraPathFiles(settings.paths, error);
-    if (!path) throw Failure(error);
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
     FileWatch watch;
-    if (settings.draw) {
-        const auto figures = flyDrawn(settings, methods, continuousPath(*path, settings.frames), watch);
-        write(settings, csvOf(figures), jsonOf(settings, figures));
-        return printTable(std::cout, figures);
-    }
-    if (settings.frames > 0 || settings.jumps) {
-        const auto figures = settings.jumps
-                                 ? jump(settings, methods, *path, watch)
-                                 : flyContinuously(settings, methods, continuousPath(*path, settings.frames), watch);
-        write(settings, csvOf(figures), jsonOf(settings, figures));
-        return printTable(std::cout, figures);
-    }
-    const auto figures = PoseBench(settings, methods, watch).run(*path);
-    std::vector<FlightFigures> live;
-    if (settings.live > 0) live = flyContinuously(settings, methods, livePath(*path, settings.live), watch);
-    write(settings, csvOf(namesOf(*path), figures), jsonOf(settings, namesOf(*path), figures, live));
-    printTable(std::cout, namesOf(*path), figures);
-    if (!live.empty()) {
-        std::cout << '\n';
-        printTable(std::cout, live);
-    }
-    std::cout.flush();
-    if (!settings.plot.empty()) plot(settings.plot, diagramsOf(namesOf(*path), figures));
+    const std::vector<CameraPose> path = pathOf(settings, watch);
+    if (settings.draw) return tell(settings, flyDrawn(settings, methods, continuousPath(path, settings.frames), watch));
+    if (settings.jumps) return tell(settings, jump(settings, methods, path, watch));
+    if (settings.frames > 0)
+        return tell(settings, flyContinuously(settings, methods, continuousPath(path, settings.frames), watch));
+    measureAtPoses(settings, methods, path, watch);
 }
 
 ExitCode run(int argc, char** argv) {
@@ -96,8 +141,9 @@ ExitCode run(int argc, char** argv) {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
     shareMemoryAmongThreads();
     osgAnalyticBin::addModuleFolder();
+    osgAnalyticBin::support::stopOnSignals();
     measure(settings);
-    return kSucceeded;
+    return stopRequested ? kInterrupted : kSucceeded;
 }
 
 }  // namespace

@@ -240,7 +240,7 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, Pat
     std::size_t number = 0;
     for (const CameraPose& pose : path) {
         ++number;
-        out << (pose.name.empty() ? "p" + std::to_string(number) : pose.name);
+        out << (pose.name.empty() ? "flight" + std::to_string(number) : pose.name);
         for (const core::Geodetic& point : {pose.eye, pose.look}) {
             out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
                 << point.altitude;

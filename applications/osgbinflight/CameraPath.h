@@ -57,7 +57,7 @@ enum class PathColumns {
 };
 
 /// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
-/// a name are p1, p2 and so on; `eyeRight` is not written.
+/// a name are flight1, flight2 and so on; `eyeRight` is not written.
 void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns);
 
 /// Replaces a file when the new one is complete. Returns: false, with one line in `error`, when that fails; what was

@@ -105,7 +105,7 @@ osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
 }
 
 osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect) {
-    constexpr double kNear = 1.0, kFar = 1e7;  // until OSG computes them
+    constexpr double kNear = 1.0, kFar = 1e8;  // until OSG computes them
     const double nearPlane = pose.hasPlanes() ? pose.nearPlane : kNear,
                  farPlane = pose.hasPlanes() ? pose.farPlane : kFar;
     const double lookDistance = (toWorld(pose.look, globe) - toWorld(pose.eye, globe)).length();

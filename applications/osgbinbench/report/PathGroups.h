@@ -9,7 +9,8 @@
 
 namespace osgAnalyticBin::report {
 
-/// Poses that belong together: their names share the text before the first `_`, which names the path.
+/// Poses that belong together: their names share the text before the first `_`, or without one all but the number at
+/// their end. This names the path.
 struct PathGroup {
     std::string name;
     std::vector<std::size_t> poses;  ///< places in the list of poses

@@ -35,4 +35,25 @@ void TextTable::print(std::ostream& output) const {
     }
 }
 
+std::string htmlText(const std::string& text) {
+    std::string html;
+    for (const char c : text) html += c == '<' ? std::string("&lt;") : c == '&' ? "&amp;" : std::string(1, c);
+    return html;
+}
+
+void TextTable::printHtml(std::ostream& output) const {
+    output << "<table>\n<thead>\n";
+    const char* cell = "th";
+    for (const auto& line : _lines) {
+        output << (line.empty() ? "<tbody>" : "<tr>");
+        for (std::size_t i = 0; i < line.size(); ++i)
+            output << '<' << cell << (i < _leftColumns ? " class=\"left\">" : ">") << htmlText(line[i]) << "</" << cell
+                   << '>';
+        output << '\n';
+        if (&line == &_lines.front()) output << "<tbody>\n";
+        cell = "td";
+    }
+    output << "</table>\n";
+}
+
 }  // namespace osgAnalyticBin::report

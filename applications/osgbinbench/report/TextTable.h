@@ -10,6 +10,9 @@
 
 namespace osgAnalyticBin::report {
 
+/// The text with HTML's own characters escaped.
+[[nodiscard]] std::string htmlText(const std::string& text);
+
 /// Lines of text in columns: the leading columns flush left, the others, numbers, flush right.
 class TextTable {
 public:
@@ -21,6 +24,9 @@ public:
     void addGap() { _lines.emplace_back(); }
 
     void print(std::ostream& output) const;
+
+    /// The same as an HTML table: the first line is its head, and a gap begins another part of it.
+    void printHtml(std::ostream& output) const;
 
 private:
     std::size_t _leftColumns;

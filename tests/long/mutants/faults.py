@@ -488,8 +488,10 @@ FAULTS = [
     Fault("stored bins are believed by a quarter of the sag", "src/kit/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
     Fault("clusters cull below a database with bins", "src/kit/database/DatabaseCallbacks.cpp",
-          "_database->replacesClusters()) clusters.emplace(*cullStack);", "false) clusters.emplace(*cullStack);", NODE,
-          "ClusterCulling.*"),
+          "_database->replacesClusters())", "false)", NODE, "ClusterCulling.*"),
+    Fault("bins cull in the turn of stock OSG", "src/kit/cull/AnalyticBinCullCallback.cpp",
+          "if (traversal && traversal->isLeftToOsg()) return static_cast<void>(traverse(node, nv));", "", NODE, "ComparedCulling.*"),
+    Fault("OSG has no turn", "src/kit/database/CullComparison.h", "_turn % 2 == 1", "false", NODE, "ComparedCulling.*"),
 
     Fault("clones that share a callback are restored one at a time", "src/kit/install/TileCallback.cpp",
           "if (!isNested) takeOff(culled, ours);", "takeOff(culled, ours);", NODE, "Clones.*"),

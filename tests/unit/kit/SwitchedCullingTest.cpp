@@ -10,10 +10,14 @@
 
 #include <gtest/gtest.h>
 #include <osg/Geode>
+#include <osg/Notify>
+#include <osg/Stats>
 #include <osg/ValueObject>
 #include <osgDB/ReadFile>
 #include <osgUtil/UpdateVisitor>
 
+#include <cstdio>
+#include <cstdlib>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -123,6 +127,84 @@ TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
         ASSERT_TRUE(flight.load(look(side)));
         EXPECT_EQ(flight.drawn(), drawnAfresh(Method::Quadratic, look(side)));
     }
+}
+
+/// What is notified while it exists.
+class Notices {
+public:
+    Notices() : _before(osg::getNotifyHandler()) { osg::setNotifyHandler(_lines.get()); }
+    ~Notices() { osg::setNotifyHandler(_before); }
+    Notices(const Notices&) = delete;
+    Notices& operator=(const Notices&) = delete;
+
+    [[nodiscard]] const std::string& text() const { return _lines->text; }
+
+private:
+    struct Lines : osg::NotifyHandler {
+        void notify(osg::NotifySeverity, const char* message) override { text += message; }
+        std::string text;
+    };
+    osg::ref_ptr<osg::NotifyHandler> _before;
+    osg::ref_ptr<Lines> _lines = new Lines;
+};
+
+/// Bins that take turns with stock OSG.
+class ComparedCulling : public SwitchedCulling {
+protected:
+    static constexpr double kTurn = 2.0;  // seconds
+
+    void SetUp() override {
+        SwitchedCulling::SetUp();
+        setenv("OSGANALYTICBIN_COMPARE", "2", 1);
+        _scene = read(Method::Quadratic);
+        unsetenv("OSGANALYTICBIN_COMPARE");
+    }
+
+    osg::ref_ptr<osg::Node> _scene;
+};
+
+TEST_F(ComparedCulling, DrawsInEachTurnWhatItsMethodDraws) {
+    const auto bins = drawnAfresh(Method::Quadratic, look(1)), spheres = drawnAfresh(Method::Sphere, look(1));
+    const Notices notices;
+    PagedFlight flight(*_scene);
+    for (const bool isStock : {false, true, false, true}) {
+        EXPECT_TRUE(flight.framesUntil(look(1), [&] {
+            const bool isItsTurn = (static_cast<int>(flight.time() / kTurn) % 2 == 1) == isStock;
+            return isItsTurn && flight.drawn() == (isStock ? spheres : bins);
+        })) << isStock;
+    }
+    int binTiles = 0, stockTiles = 0;
+    double binMs = 0.0, stockMs = 0.0;
+    ASSERT_EQ(
+        std::sscanf(notices.text().c_str(),
+                    "osgAnalyticBin: a view with bins %d tiles, cull %lf ms; with stock OSG %d tiles, cull %lf ms\n",
+                    &binTiles, &binMs, &stockTiles, &stockMs),
+        4)
+        << notices.text();
+    EXPECT_GT(binTiles, 0);
+    EXPECT_LT(binTiles, stockTiles);
+    EXPECT_GT(binMs, 0.0);
+    EXPECT_GT(stockMs, 0.0);
+}
+
+TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
+    CullView view = look(1);
+    view.camera = new osg::Camera;
+    view.camera->setStats(new osg::Stats("camera"));
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    const std::size_t bins = cull(*_scene, view, *visitor, 1, 0.5 * kTurn).drawn.size();
+    const std::size_t stock = cull(*_scene, view, *visitor, 2, 1.5 * kTurn).drawn.size();
+    EXPECT_LT(bins, stock);
+    const auto valueOf = [&](unsigned int frame, const std::string& name) {
+        double value = -1.0;
+        (void)view.camera->getStats()->getAttribute(frame, name, value);
+        return value;
+    };
+    EXPECT_EQ(valueOf(1, "Bins tiles drawn"), static_cast<double>(bins));
+    EXPECT_GT(valueOf(1, "Bins database cull ms"), 0.0);
+    EXPECT_EQ(valueOf(2, "Stock OSG tiles drawn"), static_cast<double>(stock));
+    EXPECT_GT(valueOf(2, "Stock OSG database cull ms"), 0.0);
+    EXPECT_EQ(valueOf(2, "Bins tiles drawn"), -1.0) << "of the other turn";
 }
 
 // The pager has read a file, and merges it after the switch.

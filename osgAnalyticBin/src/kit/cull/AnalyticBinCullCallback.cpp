@@ -249,6 +249,7 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
     osg::CullStack* const cullStack = nv->asCullStack();
     if (cullStack && isSurelyInside(*cullStack)) return static_cast<void>(traverse(node, nv));
     const CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
+    if (traversal && traversal->isLeftToOsg()) return static_cast<void>(traverse(node, nv));
     if (traversal && traversal->isKept(*node)) {
         // its family has tested it
         cullStack->getCurrentCullingSet().setCullingMask(traversal->maskBelowKept());

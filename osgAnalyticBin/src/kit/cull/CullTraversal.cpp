@@ -27,18 +27,21 @@ thread_local ScopeOfThread scopeOfThread;
 }  // namespace
 
 CullTraversal::DatabaseScope::DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal,
-                                            const DatabaseView& view)
+                                            const DatabaseView* view)
     : _traversal(traversal),
       _outerView(traversal._databaseView),
+      _wasLeftToOsg(traversal._isLeftToOsg),
       _outerVisitor(scopeOfThread.visitor),
       _outerTraversal(scopeOfThread.traversal) {
-    traversal._databaseView = &view;
+    traversal._databaseView = view;
+    traversal._isLeftToOsg = !view;
     ++traversal._openSelections;
     scopeOfThread = {&visitor, &traversal};
 }
 
 CullTraversal::DatabaseScope::~DatabaseScope() {
     _traversal._databaseView = _outerView;
+    _traversal._isLeftToOsg = _wasLeftToOsg;
     --_traversal._openSelections;
     scopeOfThread = {_outerVisitor, _outerTraversal};
 }

@@ -70,10 +70,10 @@ public:
     /// The visitor's counters.
     [[nodiscard]] BinStatistics& statistics() const { return _statistics; }
 
-    /// Sets, while it exists, what a database provides to its tiles.
+    /// Sets, while it exists, what a database provides to its tiles; null: it leaves them to stock OSG.
     class DatabaseScope {
     public:
-        DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView& view);
+        DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView* view);
         ~DatabaseScope();
         DatabaseScope(const DatabaseScope&) = delete;
         DatabaseScope& operator=(const DatabaseScope&) = delete;
@@ -81,6 +81,7 @@ public:
     private:
         CullTraversal& _traversal;
         const DatabaseView* const _outerView;
+        const bool _wasLeftToOsg;
         const osg::NodeVisitor* const _outerVisitor;
         CullTraversal* const _outerTraversal;
     };
@@ -94,6 +95,9 @@ public:
 
     /// What the traversed database provides; nullptr: there is none.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
+
+    /// Whether the tiles of the traversed database are culled by OSG alone.
+    [[nodiscard]] bool isLeftToOsg() const { return _isLeftToOsg; }
 
     /// The selection for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TileSelection& selection();
@@ -121,6 +125,7 @@ private:
 
     BinStatistics& _statistics;  // they own this state
     const DatabaseView* _databaseView = nullptr;
+    bool _isLeftToOsg = false;
     const osg::Node* _kept = nullptr;
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TileSelection> _selections;  // of databases within each other

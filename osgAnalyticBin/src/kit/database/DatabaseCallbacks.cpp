@@ -297,9 +297,14 @@ DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, co
 void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
+    const bool isCulling = cullStack && group && _database->isCulling() && node == _node;
+    const CullComparison::View compared(isCulling ? _comparison.get() : nullptr, *node, *nv);
     std::optional<WithoutClusterCulling> clusters;
-    if (cullStack && node == _node && _database->replacesClusters()) clusters.emplace(*cullStack);
-    if (cullStack && group && _database->isCulling() && node == _node) {
+    if (cullStack && node == _node && !compared.isStock() && _database->replacesClusters())
+        clusters.emplace(*cullStack);
+    if (compared.isStock()) {
+        leaveToOsg(*node, *nv);
+    } else if (isCulling) {
         cull(*group, *nv, *cullStack);
     } else {
         traverse(node, nv);
@@ -308,6 +313,11 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);
     // a clone
     if (!_node) putUpdateCallback(*node, *_database, nullptr);
+}
+
+void DatabaseCullCallback::leaveToOsg(osg::Node& node, osg::NodeVisitor& nv) {
+    const CullTraversal::DatabaseScope scope(nv, CullTraversal::of(nv), nullptr);
+    traverse(&node, &nv);
 }
 
 void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack) {
@@ -336,7 +346,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
     {
-        const CullTraversal::DatabaseScope scope(nv, traversal, view);
+        const CullTraversal::DatabaseScope scope(nv, traversal, &view);
         traverse(&node, &nv);
     }
     view.selection->clear();

@@ -8,12 +8,15 @@
 
 #pragma once
 
+#include "CullComparison.h"
 #include "Database.h"
 
 #include <osg/CullStack>
 #include <osg/Group>
 #include <osg/Node>
 #include <osg/NodeCallback>
+
+#include <memory>
 
 namespace osgAnalyticBin {
 
@@ -34,9 +37,11 @@ protected:
 
 private:
     void cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack);
+    void leaveToOsg(osg::Node& node, osg::NodeVisitor& nv);
 
     const osg::ref_ptr<Database> _database;
     const osg::Node* const _node;  // that it was attached to
+    const std::unique_ptr<CullComparison> _comparison = CullComparison::fromEnvironment();
 };
 
 /// Does what a database was asked for, in the update traversal: loaded tiles are fitted again when the Terrain's shape

@@ -41,7 +41,7 @@ TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
 
 TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
-    EXPECT_EQ(names.size(), 21U);
+    EXPECT_EQ(names.size(), 22U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
     for (const char* const name : {"sphere", "cluster", "cluster+raster", "box", "orientedbox+horizon+edges",
@@ -121,9 +121,17 @@ TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
         EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
         EXPECT_EQ(optionsOf(name).horizonUse, HorizonUse::Declared) << name;
     }
-    EXPECT_EQ(optionsOf("quadratic+horizon+edges+autoocclusion").occlusion, OcclusionUse::Auto);
     EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").edges);
     EXPECT_FALSE(optionsOf("exact+horizon+occlusion").edges);
+}
+
+TEST(CullMethod, BinsAreThoseThatUsersHave) {
+    CullOptions defaults;
+    defaults.index = IndexUse::On;  // what becomes complete meanwhile would change the figures
+    EXPECT_EQ(optionsOf("bins"), defaults);
+    EXPECT_EQ(optionsOf("bins", "skirts=all").skirts, SkirtUse::All);
+    EXPECT_TRUE(cullMethodFromName("bins").usesBins());
+    EXPECT_FALSE(cullMethodFromName("bins").usesRivals());
 }
 
 TEST(CullMethod, NamesThePseudoLoader) {
@@ -134,26 +142,11 @@ TEST(CullMethod, NamesThePseudoLoader) {
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
-    for (const char* const name : {"spheres",
-                                   "sphere+horizon",
-                                   "sphere+raster",
-                                   "exact+raster",
-                                   "none+edges",
-                                   "cluster+horizon",
-                                   "oracle+horizon",
-                                   "orientedboxes",
-                                   "exact+edges+horizon",
-                                   "exact+horizon+horizon",
-                                   "exact+",
-                                   "+horizon",
-                                   "",
-                                   "exact+occlusion",
-                                   "exact+edges+occlusion",
-                                   "box+horizon+occlusion",
-                                   "exact+horizon+occlusion+edges",
-                                   "sphere+occlusion",
-                                   "exact+autoocclusion",
-                                   "exact+horizon+occlusion+autoocclusion"})
+    for (const char* const name :
+         {"spheres", "sphere+horizon", "sphere+raster", "exact+raster", "none+edges", "cluster+horizon",
+          "oracle+horizon", "orientedboxes", "exact+edges+horizon", "exact+horizon+horizon", "exact+", "+horizon", "",
+          "exact+occlusion", "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges",
+          "sphere+occlusion", "bins+horizon"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

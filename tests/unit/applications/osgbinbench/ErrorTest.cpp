@@ -33,13 +33,13 @@ void expectUsageError(const Outcome& outcome, const std::string& part) {
 TEST(Errors, OfTheCommandLineNameTheOption) {
     const TemporaryFolder folder;
     const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kOnePose));
-    expectUsageError(test::runBenchBlind("x.osgb"), "--path is required");
+    expectUsageError(test::runBenchBlind("reprot"), "the commands are report and scale");
     expectUsageError(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
     expectUsageError(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
     expectUsageError(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
     expectUsageError(test::runBenchBlind(good + " --options edges=off"), "--options: name methods with or without");
     expectUsageError(test::runBenchBlind(good + " --options occlusion=on"),
-                     "--options: name methods with +occlusion or +autoocclusion");
+                     "--options: name methods with or without +occlusion");
     expectUsageError(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
     expectUsageError(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
     expectUsageError(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
@@ -51,6 +51,7 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectUsageError(test::runBenchBlind(good + " --expiry own"), "--expiry: own");
     expectUsageError(test::runBenchBlind(good + " --flush -1"), "--flush");
     expectUsageError(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
+    expectUsageError(test::runBenchBlind(good + " --jumps --report page.html"), "--report: ");
     expectUsageError(test::runBenchBlind(good + " --draw"), "--draw: ");
     expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");
 }
@@ -83,7 +84,7 @@ TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
     const Outcome outcome = test::runBenchBlind("--help");
     EXPECT_EQ(outcome.code, 0);
     for (const char* const word : {"false_culls", "cull_ms", "cull_cold_ms", "degrees and metres",
-                                   "Example:", "--vertical-scale", "exact+horizon+edges"})
+                                   "Examples:", "--vertical-scale", "exact+horizon+edges"})
         EXPECT_GE(outcome.linesWith(word), 1) << word;
 }
 

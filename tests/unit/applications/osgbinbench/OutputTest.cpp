@@ -67,12 +67,21 @@ TEST(Output, PosesBelongToThePathThatTheirNamesBeginWith) {
     EXPECT_EQ(groups[2].name, "downs");
 }
 
+TEST(Output, ARecordedFlightIsOnePath) {
+    const auto groups = pathGroupsOf({"p1", "p2", "p10", "valley2_1", "7"});
+    ASSERT_EQ(groups.size(), 3U);
+    EXPECT_EQ(groups[0].name, "p");
+    EXPECT_EQ(groups[0].poses.size(), 3U);
+    EXPECT_EQ(groups[1].name, "valley2") << "a number that belongs to the path";
+    EXPECT_EQ(groups[2].name, "7");
+}
+
 TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
     std::ostringstream several;
-    printTable(several, {"down_1", "far_1"}, twoMethods());
+    print(several, tablesOf({"down_1", "far_1"}, twoMethods()));
     EXPECT_NE(several.str().find("sums by path"), std::string::npos);
     std::ostringstream one;
-    printTable(one, {"far_1", "far_2"}, twoMethods());
+    print(one, tablesOf({"far_1", "far_2"}, twoMethods()));
     EXPECT_EQ(one.str().find("sums by path"), std::string::npos);
 }
 
@@ -104,7 +113,7 @@ TEST(Output, CsvHasALineForEachPoseAndMethod) {
 
 TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     std::ostringstream output;
-    printTable(output, {"a", "b"}, twoMethods());
+    print(output, tablesOf({"a", "b"}, twoMethods()));
     EXPECT_NE(output.str().find("ratio to sphere"), std::string::npos);
     EXPECT_EQ(output.str().find("ratio to cluster"), std::string::npos);
     EXPECT_NE(output.str().find("drawn_tiles          2.000   1.000"), std::string::npos) << output.str();
@@ -113,7 +122,7 @@ TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
 
 TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
     std::ostringstream without;
-    printTable(without, {"down_1", "far_1"}, twoMethods());
+    print(without, tablesOf({"down_1", "far_1"}, twoMethods()));
     EXPECT_EQ(without.str().find("over_oracle"), std::string::npos);
     std::vector<MethodFigures> methods = twoMethods();
     methods.push_back({"oracle", std::vector<Figures>(2)});
@@ -121,7 +130,7 @@ TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
     methods[2].poses[1].cullMs = 0.125;
     methods[2].poses[0].cullColdMs = 1.0;
     std::ostringstream with;
-    printTable(with, {"down_1", "far_1"}, methods);
+    print(with, tablesOf({"down_1", "far_1"}, methods));
     EXPECT_NE(with.str().find("over_oracle          0.000   3.000   1.000"), std::string::npos) << with.str();
     EXPECT_NE(with.str().find("cold_over_oracle     5.000   2.500   1.000"), std::string::npos) << with.str();
     EXPECT_NE(with.str().find("    0.250         1.000        2.000             1.000\n"), std::string::npos)

@@ -78,7 +78,7 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const Json first = withoutTimes(bench.run("first", "--live 0"));
-    ASSERT_EQ(first.size(), 5U);
+    ASSERT_EQ(first.size(), 4U);
     EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0")));
     // pose by pose too
     EXPECT_EQ(countsOf(bench.folder / "first.csv"), countsOf(bench.folder / "second.csv"));
@@ -208,6 +208,56 @@ TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
     ASSERT_TRUE(byOsg.contains("sphere") && byNumber.contains("sphere"));
     EXPECT_LT(byOsg["sphere"]["resident_tiles"], byNumber["sphere"]["resident_tiles"]);
     EXPECT_LT(byNumber["exact"]["resident_tiles"], byOsg["exact"]["resident_tiles"]) << "bins go by their own option";
+}
+
+TEST(Program, FliesAroundADatabaseWithoutAPathAndReports) {
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    const std::string json = bench.folder / "sums.json", page = bench.folder / "page.html";
+    const Outcome outcome =
+        test::runBench(test::quoted(bench.database) + " --size 160x90 --repeats 1 --flush 0 --live 1 --json " +
+                       test::quoted(json) + " --report " + test::quoted(page));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("osgbinbench: pose 17 of 17, turning_6"), 1) << "progress: " << outcome.text;
+    EXPECT_EQ(outcome.linesWith("Bins are worth it for this database"), 1) << outcome.text;
+    const Json sums = test::jsonFile(json);
+    ASSERT_EQ(sums["paths"].size(), 4U);
+    for (const char* const path : {"overview", "oblique", "low", "turning"}) {
+        const Json& methods = sums["paths"][path]["methods"];
+        EXPECT_GT(methods["none"]["truth_tiles"], 0) << path;
+        EXPECT_GT(methods["none"]["visible_tiles"], 0) << path;
+        EXPECT_EQ(methods["bins"]["false_culls"], 0) << path;
+        EXPECT_LE(methods["bins"]["drawn_tiles"], methods["sphere"]["drawn_tiles"]) << path;
+    }
+    const std::string html = test::textOfFile(page);
+    EXPECT_EQ(html.rfind("<!DOCTYPE html>", 0), 0U);
+    EXPECT_EQ(html.find("PARTIAL"), std::string::npos);
+    for (const char* const part : {"Bins are worth it", "alt=\"low_1\" src=\"data:image/png;base64,",
+                                   "milliseconds a pose", "<svg", "<td class=\"left\">turning</td>", "</html>"})
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    for (const char* const other : {"src=\"http", "href=\"http", "src=\"/"})
+        EXPECT_EQ(html.find(other), std::string::npos) << "one page alone: " << other;
+}
+
+TEST(Program, ReportsWhatWasMeasuredBeforeCtrlC) {
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    const std::string json = bench.folder / "sums.json", page = bench.folder / "page.html";
+    const std::string said = test::quoted(bench.folder / "said.txt");
+    // the signal comes while the second pose is measured, which would take minutes
+    const std::string script = bench.folder.write(
+        "interrupted.sh", test::quoted(BENCH_FILE) + " " + test::quoted(bench.database) +
+                              " --size 160x90 --repeats 200 --flush 64 --json " + test::quoted(json) + " --report " +
+                              test::quoted(page) + " > " + said + " 2>&1 &\n" + "until grep -q 'pose 2 of' " + said +
+                              "; do sleep 0.05; done\n" + "kill -INT $!\nwait $!\ncode=$?\ncat " + said +
+                              "\nexit $code\n");
+    const Outcome outcome = test::runOnDisplay("sh " + test::quoted(script), 300);
+    EXPECT_EQ(outcome.code, 130) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("PARTIAL RESULT: interrupted after 1 of 17 poses"), 1) << outcome.text;
+    const Json sums = test::jsonFile(json);
+    EXPECT_EQ(sums["interrupted"], true);
+    EXPECT_EQ(sums["poses"], 1);
+    EXPECT_NE(test::textOfFile(page).find("PARTIAL RESULT"), std::string::npos);
 }
 
 TEST(Program, LeavesTheOracleOutOfFlights) {

@@ -7,18 +7,37 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
 namespace {
 
-Settings settingsFrom(std::vector<std::string> words) {
-    words.insert(words.begin(), {"osgbinbench", "earth.osgb", "--path", "p.csv"});
+Settings settingsOf(std::vector<std::string> words) {
+    words.insert(words.begin(), {"osgbinbench", "earth.osgb"});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     Settings settings;
     EXPECT_TRUE(settingsFromCommandLine(static_cast<int>(arguments.size()), arguments.data(), settings));
     return settings;
+}
+
+Settings settingsFrom(std::vector<std::string> words) {
+    words.insert(words.begin(), {"--path", "p.csv"});
+    return settingsOf(std::move(words));
+}
+
+TEST(Settings, ComparesTheDefaultOptionsWithStockOsg) {
+    EXPECT_EQ(settingsFrom({}).methods, (std::vector<std::string>{"sphere", "cluster", "bins"}));
+}
+
+TEST(Settings, APageIsWrittenOnRequestAndForThePathAroundTheDatabase) {
+    EXPECT_EQ(settingsFrom({}).report, "");
+    EXPECT_EQ(settingsFrom({"--report", "page.html"}).report, "page.html");
+    EXPECT_EQ(settingsOf({}).report, "report.html");
+    EXPECT_EQ(settingsOf({"--report", "page.html"}).report, "page.html");
+    EXPECT_EQ(settingsOf({"--frames", "10"}).report, "") << "no poses to show";
 }
 
 TEST(Settings, MethodsWithoutBinsKeepTilesAsLongAsBinsUnlessToldOtherwise) {

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DefaultPath.h"
+
+#include "GlmBridge.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <osg/Math>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/LineSegmentIntersector>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <utility>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+using core::Geodetic;
+using core::GeodeticBin;
+using flight::CameraPose;
+
+constexpr double kVerticalFov = 60.0;  // degrees
+
+/// The bins of all tiles that are loaded.
+class BinCollector : public osg::NodeVisitor {
+public:
+    BinCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override {
+        for (osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+            const auto* const tile = dynamic_cast<const AnalyticBinCullCallback*>(at);
+            if (tile && tile->shownBin().valid()) bins.push_back(tile->shownBin().bin());
+        }
+        traverse(node);
+    }
+
+    std::vector<GeodeticBin> bins;
+};
+
+std::vector<GeodeticBin> loadedBins(osg::Node& scene) {
+    BinCollector collector;
+    scene.accept(collector);
+    return std::move(collector.bins);
+}
+
+double lengthOf(const core::Interval& interval) {
+    return interval.upper - interval.lower;
+}
+
+bool isLower(const GeodeticBin& a, const GeodeticBin& b) {
+    return a.altitude().upper < b.altitude().upper;
+}
+
+/// Looks for places to fly at, with the files that are in view there loaded.
+class Surveyor {
+public:
+    Surveyor(const Settings& settings, FileWatch& watch) : _scene(cullMethodFromName("exact"), settings, watch) {
+        _scene.load();
+        const std::vector<GeodeticBin> bins = loadedBins(_scene.root());
+        if (bins.empty())
+            throw support::Failure(settings.database + ": has no tiles to fly over; give a path with --path");
+        for (const GeodeticBin& bin : bins) _whole = _whole.united(bin);
+        _highest = *std::max_element(bins.begin(), bins.end(), isLower);
+        descend();
+    }
+    ~Surveyor() { _scene.pause(); }
+    Surveyor(const Surveyor&) = delete;
+    Surveyor& operator=(const Surveyor&) = delete;
+
+    [[nodiscard]] const GeodeticBin& whole() const { return _whole; }
+    /// The finest tile with the highest terrain.
+    [[nodiscard]] const GeodeticBin& highest() const { return _highest; }
+
+    /// Of the globe, or what stands for it in a map.
+    [[nodiscard]] double radius() const { return ellipsoid().equatorialRadius(); }
+
+    /// From its south to its north, in metres or units of the map.
+    [[nodiscard]] double depthOf(const GeodeticBin& bin) const { return lengthOf(bin.latitude()) * radius(); }
+
+    /// So many metres, or units of the map, away.
+    [[nodiscard]] Geodetic moved(const Geodetic& from, double heading, double distance) const {
+        const double mostLatitude = 89.9 * osg::PI / 180.0;
+        const double north = distance * std::cos(heading) / radius();
+        const double latitude = std::clamp(from.latitude + north, -mostLatitude, mostLatitude);
+        const double parallel = radius() * std::cos(from.latitude);
+        const double longitude = from.longitude + distance * std::sin(heading) / parallel;
+        return {latitude, ellipsoid().isPlane() ? longitude : std::remainder(longitude, 2.0 * osg::PI), from.altitude};
+    }
+
+    /// Over the ground there, once its finest tiles are loaded.
+    [[nodiscard]] Geodetic aboveGround(Geodetic at, double height) {
+        at.altitude = _highest.altitude().upper;
+        lookDown(at, 2.0 * depthOf(_highest));
+        at.altitude = groundAt(at).value_or(at.altitude) + height;
+        return at;
+    }
+
+private:
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return toCore(*_scene.globe().ellipsoid); }
+
+    void lookDown(const Geodetic& at, double height) {
+        Geodetic eye = at;
+        eye.altitude += height;
+        _scene.settle({"survey", eye, at, osg::DegreesToRadians(kVerticalFov)});
+    }
+
+    // From tile to finer tile, until there are none.
+    void descend() {
+        constexpr double kFiner = 0.75;
+        for (bool isFiner = true; isFiner;) {
+            Geodetic top = _highest.center();
+            top.altitude = _highest.altitude().upper;
+            lookDown(top, std::min(1.2 * depthOf(_highest), 3.0 * radius()));
+            std::vector<GeodeticBin> bins = loadedBins(_scene.root());
+            const auto isCoarser = [&](const GeodeticBin& bin) {
+                return lengthOf(bin.latitude()) > kFiner * lengthOf(_highest.latitude()) ||
+                       !_highest.contains(Geodetic{bin.center().latitude, bin.center().longitude, top.altitude});
+            };
+            bins.erase(std::remove_if(bins.begin(), bins.end(), isCoarser), bins.end());
+            isFiner = !bins.empty();
+            if (isFiner) _highest = *std::max_element(bins.begin(), bins.end(), isLower);
+        }
+    }
+
+    [[nodiscard]] osg::Vec3d toWorld(const Geodetic& at) const {
+        const glm::dvec3 ecef = ellipsoid().toEcef(at);
+        return osg::Vec3d(ecef.x, ecef.y, ecef.z) * _scene.globe().localToWorld;
+    }
+
+    [[nodiscard]] std::optional<double> groundAt(const Geodetic& at) {
+        const double depth = lengthOf(_whole.altitude()) + depthOf(_highest);
+        Geodetic high = at, low = at;
+        high.altitude += depth;
+        low.altitude -= depth;
+        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+            new osgUtil::LineSegmentIntersector(toWorld(high), toWorld(low));
+        osgUtil::IntersectionVisitor visitor(line);
+        _scene.root().accept(visitor);
+        if (!line->containsIntersections()) return std::nullopt;
+        const osg::Vec3d hit =
+            line->getFirstIntersection().getWorldIntersectPoint() * osg::Matrixd::inverse(_scene.globe().localToWorld);
+        return ellipsoid().toGeodetic({hit.x(), hit.y(), hit.z()}).altitude;
+    }
+
+    MethodScene _scene;
+    GeodeticBin _whole;
+    GeodeticBin _highest;
+};
+
+/// Adds poses of one kind after the other.
+struct PathMaker {
+    Surveyor& places;
+    std::vector<CameraPose> path;
+
+    void add(const char* kind, int number, const Geodetic& eye, const Geodetic& look) {
+        CameraPose& pose = path.emplace_back();
+        pose.name = std::string(kind) + "_" + std::to_string(number);
+        pose.eye = eye;
+        pose.look = look;
+        pose.verticalFov = osg::DegreesToRadians(kVerticalFov);
+        pose.time = static_cast<double>(path.size());
+    }
+
+    [[nodiscard]] Geodetic top() const {
+        Geodetic top = places.highest().center();
+        top.altitude = places.highest().altitude().upper;
+        return top;
+    }
+
+    // How far the database reaches: a globe no farther than its radius.
+    [[nodiscard]] double reach() const {
+        const GeodeticBin& whole = places.whole();
+        const double parallel = lengthOf(whole.longitude()) * std::cos(whole.center().latitude);
+        return places.radius() * std::min(1.0, std::max(lengthOf(whole.latitude()), parallel) / 2.0);
+    }
+
+    void addOverviews() {
+        Geodetic look = places.whole().center();
+        look.altitude = places.whole().altitude().upper;
+        const double quarter = lengthOf(places.whole().longitude()) / 4.0;
+        look.longitude -= quarter;
+        for (int i = 1; i <= 3; ++i, look.longitude += quarter) {
+            Geodetic eye = look;
+            eye.altitude += 1.3 * reach();
+            add("overview", i, eye, look);
+        }
+    }
+
+    void addObliques() {
+        const double distance = 0.15 * reach();
+        for (int i = 0; i < 4; ++i) {
+            Geodetic eye = places.moved(top(), i * osg::PI_2, distance);
+            eye.altitude += 0.6 * distance;
+            add("oblique", i + 1, eye, top());
+        }
+    }
+
+    void addLowOnes(double tile) {
+        for (int i = 0; i < 4; ++i) {
+            const Geodetic eye = places.aboveGround(places.moved(top(), i * osg::PI_2, tile), 0.015 * tile);
+            Geodetic look = top();
+            look.altitude = eye.altitude;
+            add("low", i + 1, eye, look);
+        }
+    }
+
+    void addTurn(double tile) {
+        constexpr int kViews = 6;
+        const Geodetic eye = places.aboveGround(places.moved(top(), 0.0, 0.75 * tile), 0.05 * tile);
+        for (int i = 0; i < kViews; ++i) {
+            Geodetic look = places.moved(eye, 2.0 * osg::PI * i / kViews, tile);
+            look.altitude -= 0.15 * tile;
+            add("turning", i + 1, eye, look);
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<CameraPose> defaultPath(const Settings& settings, FileWatch& watch) {
+    std::cerr << "osgbinbench: looking for the highest terrain, to fly around it" << std::endl;
+    Surveyor surveyor(settings, watch);
+    PathMaker maker{surveyor, {}};
+    const double tile = surveyor.depthOf(surveyor.highest());
+    maker.addOverviews();
+    maker.addObliques();
+    maker.addLowOnes(tile);
+    maker.addTurn(tile);
+    return maker.path;
+}
+
+}  // namespace osgAnalyticBin::bench
