@@ -2,16 +2,17 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs all tests: release (with each public header by itself, and the installed
-# package, as others use it), dev (unit tests, with assertions and sanitizers), tsan (those of threads), scalar, and a
-# program with static libraries. `sh tests/run.sh quick` runs the release build alone, with the unit tests.
+# Installs what is missing, builds, and runs all tests: release (programs, with each public header by itself, and the
+# installed package, as others use it), dev (unit tests of the libraries, with assertions and sanitizers), tsan (those of
+# threads), and a program with static libraries, without Highway. `sh tests/run.sh quick` runs the release build alone, with
+# all unit tests.
 # Tests are skipped, and listed, when something that they need is missing. With OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
 set -eu
 
 case ${1:-} in
     "" | quick) ;;
     -h | --help)
-        sed -n '5,8s/^# //p' "$0"
+        sed -n '5,9s/^# //p' "$0"
         exit 0
         ;;
     *)
@@ -55,9 +56,7 @@ python3 tests/system/layers/layers.py .
 
 sanitized_tests=OFF
 if [ "${1:-}" = quick ]; then sanitized_tests=ON; fi
-build release
-step "each public header by itself"
-build release --target all_verify_interface_header_sets
+build release --target all all_verify_interface_header_sets
 test_preset release
 if [ "${1:-}" = quick ]; then exit 0; fi
 
@@ -66,8 +65,6 @@ build dev
 test_preset dev -LE 'soundness|pictures|threads|http'
 build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbin
 test_preset tsan -L threads
-build scalar --target osganalyticbin_core_tests
-test_preset scalar -L core-quick
 build static --target osgAnalyticBinViewer osgAnalyticBinMappings
 step "a static kit and viewer library, as others use them"
 sh tests/system/package/buildtree.sh "$PWD" "$PWD/build/static" "$PWD/build/static/buildtree"

@@ -16,21 +16,25 @@ namespace osgAnalyticBin {
 
 #if defined(_WIN32)
 
-void addModuleFolder() {
-    // the kit stands beside the program, where OSG looks
+std::string moduleFolder() {
+    return "";  // the kit stands beside the program, where OSG looks
 }
 
 #else
 
-void addModuleFolder() {
+std::string moduleFolder() {
     Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&methodName), &info) == 0 || !info.dli_fname) return;
+    if (dladdr(reinterpret_cast<const void*>(&methodName), &info) == 0 || !info.dli_fname) return "";
     const std::string library = info.dli_fname;
-    const auto slash = library.rfind('/');
-    if (slash == std::string::npos) return;
-    osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
+    return library.substr(0, library.rfind('/') + 1);
 }
 
 #endif
+
+void addModuleFolder() {
+    const std::string folder = moduleFolder();
+    if (folder.size() > 1)
+        osgDB::Registry::instance()->getLibraryFilePathList().push_back(folder.substr(0, folder.size() - 1));
+}
 
 }  // namespace osgAnalyticBin

@@ -4,13 +4,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace osgbindem {
 
-/// The programs that mpirun has started together; a single one without mpirun, or in a build without MPI. Only mpirun's
-/// environment makes MPI start, which takes a tenth of a second. To be used by the thread that made it.
+class RankLink;
+
+/// The programs that mpirun has started together; a single one without mpirun. Only mpirun's environment makes MPI load
+/// and start, which takes a tenth of a second. To be used by the thread that made it.
 class Ranks final {
 public:
     /// Throws Failure.
@@ -43,6 +46,7 @@ public:
     [[noreturn]] static void leaveAfterSignal();
 
 private:
+    std::unique_ptr<RankLink> _link;  // null: without mpirun
     int _rank = 0;
     int _count = 1;
     int _countHere = 1;

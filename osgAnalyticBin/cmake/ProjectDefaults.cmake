@@ -80,5 +80,5 @@ function(osganalyticbin_osg_module target)
                          LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                          INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/..")
   install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
-                                    COMPONENT runtime)
+                                    COMPONENT plugins)
 endfunction()

@@ -39,7 +39,7 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-constexpr int kFrames = 40;
+constexpr int kFrames = 24;  // each method once
 constexpr double kFrameTime = 0.05;
 
 // The databases are written once.
@@ -116,7 +116,7 @@ public:
         if (frame % 8 == 7) _switch->setMethod(_rig.view(), options.method);
         if (frame % 6 == 1) _freeze->setFrozen(_rig.view(), !_freeze->isFrozen());
         // a second window draws what is drawn over the first
-        if (frame == 12 || frame == 30) _spy->setOpen(_rig.view(), !_spy->isOpen());
+        if (frame == 8 || frame == 18) _spy->setOpen(_rig.view(), !_spy->isOpen());
         if (frame % 3 == 0) culled += culledBy(_rig.cameras());
     }
 

@@ -46,7 +46,9 @@ echo "== a Debian with OpenSceneGraph and a virtual display"
 inside "apt-get update; apt-get install -y --no-install-recommends openscenegraph xvfb xauth libgl1-mesa-dri"
 
 echo "== library and programs"
-inside "apt-get install -y --no-install-recommends /tmp/packages/libosganalyticbin0_*.deb /tmp/packages/osganalyticbin-tools_*.deb"
+inside "apt-get install -y --no-install-recommends /tmp/packages/libosganalyticbin0_*.deb /tmp/packages/openscenegraph-plugin-analyticbin_*.deb \
+    /tmp/packages/osganalyticbin-tools_*.deb"
+! grep -q libopenmpi "$root/tmp/log" || fail "the programs need MPI"
 inside "osgconv --format analyticbin"
 said "method=quadratic"
 programs="osgbinviewer osgbindem osgbinconv osgbinbench"
@@ -74,7 +76,7 @@ inside "pkg-config --cflags --libs osgAnalyticBinViewer"
 said "losgAnalyticBinViewer"
 
 echo "== purge"
-inside "apt-get purge -y libosganalyticbin0 libosganalyticbin-dev osganalyticbin-tools; ldconfig"
+inside "apt-get purge -y libosganalyticbin0 libosganalyticbin-dev openscenegraph-plugin-analyticbin osganalyticbin-tools; ldconfig"
 left=$(find "$root" -xdev -path "$root/tmp" -prune -o -path "$root/proc" -prune -o -iname '*osganalyticbin*' -print \
     -o -name 'osgdb_*bin*' -newer "$root/tmp/packages" -print)
 [ -z "$left" ] || fail "left behind: $left"

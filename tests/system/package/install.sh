@@ -41,13 +41,14 @@ export LD_LIBRARY_PATH=
 echo "== no installed text names a folder of the build"
 ! grep -rIlF -e "$source" -e "$build" -e "$scratch" "$moved" || fail "the files above do"
 
-echo "== find_package, all components"
+echo "== find_package, all components, as C++17"
 quietly consumer build
 quietly cmake --build "$scratch/build"
 ctest --test-dir "$scratch/build" --output-on-failure --no-tests=error
 
-echo "== without Boost all but mappings; component core without OpenSceneGraph; the others say what they need"
-quietly consumer viewer "-DCONSUMER_COMPONENTS=kit;viewer" -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
+echo "== without Boost all but mappings, as C++20; component core without OpenSceneGraph; the others say what they need"
+quietly consumer viewer "-DCONSUMER_COMPONENTS=kit;viewer" -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON -DCMAKE_CXX_STANDARD=20
+quietly cmake --build "$scratch/viewer"
 ! consumer mappings -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON >"$scratch/log" 2>&1 || fail "mappings was found without Boost"
 quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --build "$scratch/core"
@@ -57,14 +58,17 @@ tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit, viewer and ma
     fail "no clear word about OpenSceneGraph"
 }
 
-echo "== pkg-config"
+echo "== pkg-config, as C++17 and C++20"
 export PKG_CONFIG_PATH="$moved/$libdir/pkgconfig"
 for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin uses_viewer:osgAnalyticBinViewer uses_mappings:osgAnalyticBinMappings; do
     program=${pair%:*}
     flags=$(pkg-config --cflags --libs "${pair#*:}")
-    # shellcheck disable=SC2086
-    quietly "${CXX:-c++}" "$source/tests/system/consumer/$program.cpp" -o "$scratch/$program" $flags
-    LD_LIBRARY_PATH="$moved/$libdir" "$scratch/$program" || fail "$program by pkg-config failed"
+    case $flags in *-std=*) fail "pkg-config chooses the application's standard: $flags" ;; esac
+    for standard in 17 20; do
+        # shellcheck disable=SC2086
+        quietly "${CXX:-c++}" -std=c++$standard "$source/tests/system/consumer/$program.cpp" -o "$scratch/$program" $flags
+        LD_LIBRARY_PATH="$moved/$libdir" "$scratch/$program" || fail "$program by pkg-config failed"
+    done
 done
 
 echo "== programs find their library where they are, tell their version, and have man pages where help2man is"

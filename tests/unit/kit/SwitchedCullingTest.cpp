@@ -118,7 +118,7 @@ TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
     const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
     PagedFlight flight(*scene);
     constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Quadratic};
-    for (std::size_t i = 0; i < 60; ++i) {
+    for (std::size_t i = 0; i < 24; ++i) {
         setCullOptions(*scene, by(kMethods[i % kMethods.size()]));
         flight.frames(look(i % 8 < 4 ? 1.0 : -1.0), 1);
     }
