@@ -207,6 +207,20 @@ TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
     EXPECT_EQ(valueOf(2, "Bins tiles drawn"), -1.0) << "of the other turn";
 }
 
+TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
+    const Notices notices;
+    for (const char* const text : {"soon", "-1", "0", "nan", ""}) {
+        setenv("OSGANALYTICBIN_COMPARE", text, 1);
+        const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
+        PagedFlight flight(*scene);
+        unsetenv("OSGANALYTICBIN_COMPARE");
+        const auto bins = drawnAfresh(Method::Quadratic, look(1));
+        EXPECT_TRUE(flight.framesUntil(look(1), [&] { return flight.time() > 1.0 && flight.drawn() == bins; })) << text;
+    }
+    EXPECT_EQ(notices.text().find("a view with bins"), std::string::npos) << notices.text();
+    EXPECT_NE(notices.text().find("not a number of seconds"), std::string::npos) << notices.text();
+}
+
 // The pager has read a file, and merges it after the switch.
 class LateComer : public SwitchedCulling, public ::testing::WithParamInterface<Method> {};
 

@@ -3,6 +3,7 @@
 
 #include "CullComparison.h"
 
+#include "../Text.h"
 #include "../cull/InstalledBin.h"
 
 #include <osg/ApplicationUsage>
@@ -12,6 +13,7 @@
 #include <osg/Stats>
 #include <osgUtil/CullVisitor>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -61,15 +63,23 @@ private:
 
 std::unique_ptr<CullComparison> CullComparison::fromEnvironment() {
     const char* const text = std::getenv(kVariable);
-    const double seconds = text ? std::atof(text) : 0.0;
-    return seconds > 0.0 ? std::make_unique<CullComparison>(seconds) : nullptr;
+    if (!text) return nullptr;
+    constexpr double kLeast = 0.01, kMost = 86400.0;
+    const auto seconds = numbersFromText(text, 1);
+    if (seconds && seconds->front() >= kLeast && seconds->front() <= kMost)
+        return std::make_unique<CullComparison>(seconds->front());
+    static std::atomic<bool> hasSaid{false};
+    if (!hasSaid.exchange(true))
+        OSG_WARN << "osgAnalyticBin: " << kVariable << "=" << text
+                 << " is not a number of seconds from 0.01 to 86400; bins and stock OSG are not compared." << std::endl;
+    return nullptr;
 }
 
 // All cameras of a frame have the same time, and so the same turn.
 CullComparison::View::View(CullComparison* comparison, const osg::Node& root, osg::NodeVisitor& visitor)
     : _comparison(visitor.asCullVisitor() && visitor.getFrameStamp() ? comparison : nullptr),
       _root(root),
-      _visitor(static_cast<osgUtil::CullVisitor&>(visitor)) {
+      _visitor(visitor.asCullVisitor()) {
     if (!_comparison) return;
     _turn = static_cast<std::uint64_t>(visitor.getFrameStamp()->getReferenceTime() / _comparison->_seconds);
     _begin = std::chrono::steady_clock::now();
@@ -79,11 +89,11 @@ CullComparison::View::~View() {
     if (!_comparison) return;
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - _begin;
     DrawnTiles tiles(_root);
-    tiles.add(*_visitor.getRootStateGraph());
-    osg::Camera* const camera = _visitor.getCurrentCamera();
+    tiles.add(*_visitor->getRootStateGraph());
+    osg::Camera* const camera = _visitor->getCurrentCamera();
     if (osg::Stats* const stats = camera ? camera->getStats() : nullptr) {
         const std::string whose = isStock() ? "Stock OSG " : "Bins ";
-        const unsigned int frame = _visitor.getFrameStamp()->getFrameNumber();
+        const unsigned int frame = _visitor->getFrameStamp()->getFrameNumber();
         stats->setAttribute(frame, whose + "database cull ms", passed.count());
         stats->setAttribute(frame, whose + "tiles drawn", static_cast<double>(tiles.count()));
     }

@@ -19,12 +19,12 @@ class CullVisitor;
 namespace osgAnalyticBin {
 
 /// Shows in any application what bins do: with the environment variable OSGANALYTICBIN_COMPARE, bins and stock OSG take
-/// turns in culling a database, and a notice after each turn says how long a view's traversal of
-/// the database took and how many of its tiles were drawn. A camera with osg::Stats gets the same, frame by frame.
+/// turns in culling a database, and a notice after each turn says how long a view's traversal of the database took and
+/// how many of its tiles were drawn. A camera with osg::Stats gets the same, frame by frame.
 /// Threads: any number of cull traversals.
 class CullComparison {
 public:
-    /// Null unless the variable is set to seconds above 0.
+    /// Null unless the variable is set. Malformed: null, after one warning.
     [[nodiscard]] static std::unique_ptr<CullComparison> fromEnvironment();
 
     /// `seconds`: of each turn.
@@ -45,7 +45,7 @@ public:
     private:
         CullComparison* _comparison;
         const osg::Node& _root;
-        osgUtil::CullVisitor& _visitor;
+        osgUtil::CullVisitor* const _visitor;
         std::uint64_t _turn = 0;
         std::chrono::steady_clock::time_point _begin;
     };
