@@ -4,12 +4,10 @@
 #include "CullMethod.h"
 
 #include "Failure.h"
-#include "MethodName.h"
 #include "RivalOptions.h"
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 
 namespace osgAnalyticBin::bench {
 
@@ -118,9 +116,7 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
         const bool known = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
         if (!known) methods.push_back(cullMethodFromName(name));
     };
-    for (const std::string& given : names) {
-        const std::string name = support::currentMethodName(given);
-        if (name != given) std::cerr << "osgbinbench: " << support::noticeOfOldName(given);
+    for (const std::string& name : names) {
         if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
         if (name == kAllMethods) std::for_each(kAll.begin(), kAll.end(), add);

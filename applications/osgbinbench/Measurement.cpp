@@ -4,7 +4,6 @@
 #include "Measurement.h"
 
 #include "Failure.h"
-#include "MethodName.h"
 
 #include <array>
 #include <fstream>
@@ -45,7 +44,7 @@ std::vector<MeasuredMethod> methodsOf(const Json& methods, const std::string& fi
     std::vector<MeasuredMethod> measured;
     for (const auto& [name, figures] : methods.items()) {
         MeasuredMethod& method = measured.emplace_back();
-        method.name = support::currentMethodName(name);
+        method.name = name;
         if (!figures.is_object()) refuse(file, where + "." + name + " holds no figures");
         for (const auto& [column, number] : figures.items()) {
             if (!number.is_number()) refuse(file, where + "." + name + "." + column + " is no number");

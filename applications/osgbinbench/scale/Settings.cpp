@@ -5,7 +5,6 @@
 
 #include "CullMethod.h"
 #include "Failure.h"
-#include "MethodName.h"
 #include "ProgramRun.h"
 #include "RivalOptions.h"
 #include "TextFile.h"
@@ -14,8 +13,6 @@
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
-
-#include <iostream>
 
 namespace osgAnalyticBin::scale {
 
@@ -98,9 +95,7 @@ void takeSeries(const std::vector<std::string>& series, Settings& settings) {
 
 }  // namespace
 
-ScaleMethod scaleMethodFromName(const std::string& given) {
-    const std::string name = support::currentMethodName(given);
-    if (name != given) std::cerr << "osgbinbench scale: " << support::noticeOfOldName(given);
+ScaleMethod scaleMethodFromName(const std::string& name) {
     if (name == bench::kOracleMethod) {
         ScaleMethod oracle = scaleMethodFromName(bench::kReplayedMethod);
         oracle.name = name;

@@ -34,14 +34,6 @@ CullOptions optionsOf(const std::string& method, const std::string& binOptions =
     return options.value_or(CullOptions());
 }
 
-TEST(CullMethod, ReadsNamesAsTheyWereSpelt) {
-    const auto methods = cullMethodsFromNames({"orientedBox+horizon+reverse", "exact+reverse"});
-    ASSERT_EQ(methods.size(), 3u);
-    EXPECT_EQ(methods[1].name, "orientedbox+horizon+edges");
-    EXPECT_TRUE(methods[1].usesEdges);
-    EXPECT_EQ(methods[2].name, "exact+edges");
-}
-
 TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
     const std::vector<std::string> names{"none", "cluster", "exact", "exact+horizon"};
     EXPECT_EQ(namesOf(cullMethodsFromNames({"cluster", "exact", "none", "cluster", "exact+horizon"})), names);
