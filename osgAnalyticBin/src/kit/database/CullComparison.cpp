@@ -69,7 +69,7 @@ std::unique_ptr<CullComparison> CullComparison::fromEnvironment() {
 CullComparison::View::View(CullComparison* comparison, const osg::Node& root, osg::NodeVisitor& visitor)
     : _comparison(visitor.asCullVisitor() && visitor.getFrameStamp() ? comparison : nullptr),
       _root(root),
-      _visitor(static_cast<osgUtil::CullVisitor&>(visitor)) {
+      _visitor(visitor.asCullVisitor()) {
     if (!_comparison) return;
     _turn = static_cast<std::uint64_t>(visitor.getFrameStamp()->getReferenceTime() / _comparison->_seconds);
     _begin = std::chrono::steady_clock::now();
@@ -79,11 +79,11 @@ CullComparison::View::~View() {
     if (!_comparison) return;
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - _begin;
     DrawnTiles tiles(_root);
-    tiles.add(*_visitor.getRootStateGraph());
-    osg::Camera* const camera = _visitor.getCurrentCamera();
+    tiles.add(*_visitor->getRootStateGraph());
+    osg::Camera* const camera = _visitor->getCurrentCamera();
     if (osg::Stats* const stats = camera ? camera->getStats() : nullptr) {
         const std::string whose = isStock() ? "Stock OSG " : "Bins ";
-        const unsigned int frame = _visitor.getFrameStamp()->getFrameNumber();
+        const unsigned int frame = _visitor->getFrameStamp()->getFrameNumber();
         stats->setAttribute(frame, whose + "database cull ms", passed.count());
         stats->setAttribute(frame, whose + "tiles drawn", static_cast<double>(tiles.count()));
     }

@@ -45,7 +45,7 @@ public:
     private:
         CullComparison* _comparison;
         const osg::Node& _root;
-        osgUtil::CullVisitor& _visitor;
+        osgUtil::CullVisitor* const _visitor;
         std::uint64_t _turn = 0;
         std::chrono::steady_clock::time_point _begin;
     };
