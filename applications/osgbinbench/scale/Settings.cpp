@@ -14,7 +14,6 @@
 
 #include <CLI/CLI.hpp>
 
-
 namespace osgAnalyticBin::scale {
 
 using support::UsageError;
