@@ -73,7 +73,7 @@ const std::vector<Pose> kPoses{{"Hilo, runway", 19.7203, -155.0485, 13.0, 80, 0,
                                {"Iceland, 200 km", 64.8, -22.0, 200000.0, 0, -90, true},
                                {"pole", 89.5, -18.0, 3000.0, 180, -5, true}};
 
-// Double the field of view of FlightGear's default is not looked at.
+// In a field of view of 45 degrees, upright.
 test::CullView viewOf(const Pose& pose) {
     const osg::EllipsoidModel earth;
     osg::Matrixd toEcef;
@@ -193,7 +193,7 @@ public:
 
 private:
     struct Capture : osg::Camera::DrawCallback {
-        explicit Capture(osg::Image& image) : image(&image) {}
+        explicit Capture(osg::Image& to) : image(&to) {}
         void operator()(osg::RenderInfo&) const override {
             image->readPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE);
         }
@@ -225,8 +225,8 @@ private:
 std::size_t differing(const osg::Image* a, const osg::Image* b) {
     if (!a || !b) return 0;
     std::size_t pixels = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) pixels += std::memcmp(a->data(x, y), b->data(x, y), 3) != 0;
+    for (unsigned int y = 0; y < kHeight; ++y) {
+        for (unsigned int x = 0; x < kWidth; ++x) pixels += std::memcmp(a->data(x, y), b->data(x, y), 3) != 0;
     }
     return pixels;
 }
