@@ -367,11 +367,21 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
     noteDrawn(tile, *installed);
-    const core::MeshCover cover = coverBy(tile, sources, shape, fit);
-    installed->setCover(cover);
-    if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
+    noteCover(tile, sources, fit, *installed);
     noteCovered(tile, fit, *installed);
     visitChildren(tile, *installed);
+}
+
+// A tile that the application has added to a database with gaps, where the horizon is not given, hides nothing: its
+// mesh is not looked at so closely.
+void BinInstaller::noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit,
+                             InstalledTile& installed) {
+    const bool isBelowNone = _isReading && !_parent;
+    const bool isGiven = sources.options.horizonUse == HorizonUse::Given;
+    if (isBelowNone && !isGiven && database().has(Finding::Gap)) return;
+    const core::MeshCover cover = coverBy(tile, sources, database().fittedShape(), fit);
+    installed.setCover(cover);
+    if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
 }
 
 osg::ref_ptr<InstalledTile> BinInstaller::recordOf(const FoundTile& tile, const TileFit& fit) {

@@ -29,6 +29,7 @@ namespace osgAnalyticBin {
 
 class Coverage;
 class InstalledTile;
+struct FitSources;
 struct TileFit;
 class Database;
 
@@ -93,6 +94,7 @@ private:
     void install(FoundTile& tile, bool hasNewContent);
     [[nodiscard]] osg::ref_ptr<InstalledTile> recordOf(const FoundTile& tile, const TileFit& fit);
     void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed);
+    void noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit, InstalledTile& installed);
     void noteDrawn(const FoundTile& tile, InstalledTile& installed);
     [[nodiscard]] DrawnState drawnStateOfTile(osg::Node& node) const;
     // Of a node that is no tile. Not inlined, to leave stack for scenes that are nested deep.
