@@ -25,7 +25,7 @@ namespace osgAnalyticBin {
 namespace {
 
 void reportMissing(osg::Node& node, const CullOptions& options) {
-    bool hasGlobe = false;
+    bool hasGlobe = options.globe.has_value();
     std::size_t tiles = 0, stored = 0;
     forEachNode(node, [&](osg::Node& at) {
         hasGlobe = hasGlobe || dynamic_cast<osg::CoordinateSystemNode*>(&at);
@@ -40,6 +40,7 @@ void reportMissing(osg::Node& node, const CullOptions& options) {
             return "tiles are PagedLODs with a mesh, osgTerrain tiles, and nodes with setStoredBin(). Install bins "
                    "again "
                    "when there are some";
+        if (hasGlobe && !options.ground.empty()) return "none of the loaded nodes has the name of the ground";
         if (hasGlobe) return "none of them has a mesh that is known to be ground";
         return "no osg::CoordinateSystemNode stands above them. Put one above them, or name the globe by the option "
                "globe="
