@@ -20,7 +20,6 @@ namespace {
 
 using report::cellText;
 using report::Json;
-using report::ratioText;
 using report::TextTable;
 
 constexpr std::array<const char*, 2> kComparedWith{"sphere", "cluster"};
@@ -98,7 +97,7 @@ void addTimesOverOracle(Json& methods) {
     if (!methods.contains(kOracleMethod)) return;
     for (const auto& [title, column] : {std::pair("over_oracle", kCullColumn), {"cold_over_oracle", kCullColdColumn}}) {
         const double oracle = methods[kOracleMethod][column].get<double>();
-        for (Json& sums : methods) sums[title] = ratioText(sums[column].get<double>(), oracle);
+        for (Json& sums : methods) sums[title] = report::ratioText(sums[column].get<double>(), oracle);
     }
 }
 
@@ -154,7 +153,7 @@ TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<Me
         addTimesOverOracle(sums);
         for (auto& [method, figures] : sums.items()) {
             figures["drawn/truth"] =
-                ratioText(figures["drawn_tiles"].get<double>(), figures["truth_tiles"].get<double>());
+                report::ratioText(figures["drawn_tiles"].get<double>(), figures["truth_tiles"].get<double>());
             std::vector<std::string> cells{group.name, method};
             for (const std::string& column : columns) cells.push_back(cellText(figures[column], 3));
             table.add(std::move(cells));

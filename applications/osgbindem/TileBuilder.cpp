@@ -147,8 +147,8 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     root->getOrCreateStateSet()->setAttributeAndModes(material);
-    // The colours have their own light and shade; a light that stands with the eye adds little of its own.
-    constexpr float kAmbient = 0.7F;
+    // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
+    constexpr float kAmbient = 0.5F;
     const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
     light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
     root->getOrCreateStateSet()->setAttribute(light);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ public:
                 const bool isOurs = note.find("osgAnalyticBin") != std::string::npos || note.find("analyticbin:") == 0;
                 return isOurs && note.find(text) != std::string::npos;
             }));
+    }
+
+    /// All messages.
+    [[nodiscard]] std::string text() const {
+        const std::lock_guard<std::mutex> lock(_handler->mutex);
+        return std::accumulate(_handler->notes.begin(), _handler->notes.end(), std::string());
     }
 
 private:

@@ -29,8 +29,8 @@ CullOptions onEarth() {
 }
 
 // The tiles of a MeshGlobe below a plain group.
-struct PlainGlobe : MeshGlobe {
-    PlainGlobe() {
+struct GlobeWithoutSystem : MeshGlobe {
+    GlobeWithoutSystem() {
         scene = new osg::Group;
         for (const auto& tile : tiles) scene->addChild(tile);
         root->removeChildren(0, root->getNumChildren());
@@ -67,7 +67,7 @@ struct AddedGlobe {
 };
 
 TEST(NamedGlobe, StandsForACoordinateSystem) {
-    PlainGlobe plain;
+    GlobeWithoutSystem plain;
     EXPECT_EQ(installBins(*plain.scene), 0u);
     ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     EXPECT_FALSE(plain.drawsAntipode()) << "no horizon";
@@ -75,7 +75,7 @@ TEST(NamedGlobe, StandsForACoordinateSystem) {
 }
 
 TEST(NamedGlobe, OutlivesOtherMethods) {
-    PlainGlobe plain;
+    GlobeWithoutSystem plain;
     ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     CullOptions spheres = onEarth();
     spheres.method = Method::Sphere;
@@ -89,7 +89,7 @@ TEST(NamedGlobe, OutlivesOtherMethods) {
 }
 
 TEST(NamedGlobe, DrawsATileInSeveralPlaces) {
-    PlainGlobe plain;
+    GlobeWithoutSystem plain;
     const osg::ref_ptr<osg::MatrixTransform> elsewhere =
         new osg::MatrixTransform(osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 0, 1)));
     elsewhere->addChild(plain.tiles[15]);

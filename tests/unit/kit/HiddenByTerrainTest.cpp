@@ -228,7 +228,7 @@ TEST(HiddenByTerrain, ForgetsTheViewOfAnotherFrame) {
     EXPECT_TRUE(globe.draws(*after, high));
 }
 
-using Change = std::function<void(osg::MatrixTransform& model)>;
+using ModelChange = std::function<void(osg::MatrixTransform& model)>;
 
 osg::Geometry& meshOf(osg::MatrixTransform& model) {
     return *drawableOf(model)->asGeometry();
@@ -257,7 +257,7 @@ void wrap(osg::MatrixTransform& model, osg::Group& group) {
 
 // What may be drawn in front of terrain, or outside of its sphere.
 TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
-    const std::vector<std::pair<std::string, Change>> changes{
+    const std::vector<std::pair<std::string, ModelChange>> changes{
         {"no depth test", [](auto& model) { stateOf(model).setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
         {"the same on the node",
          [](auto& model) { model.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
@@ -335,7 +335,7 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
 }
 
 TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
-    const std::vector<std::pair<std::string, Change>> changes{
+    const std::vector<std::pair<std::string, ModelChange>> changes{
         {"a texture unit", [](auto& model) { stateOf(model).setTextureMode(0, GL_TEXTURE_2D, 1); }},
         {"blending", [](auto& model) { stateOf(model).setMode(GL_BLEND, osg::StateAttribute::ON); }},
         {"shaders that draw triangles",

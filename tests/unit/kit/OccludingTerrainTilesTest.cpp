@@ -233,8 +233,8 @@ void pageTile(TerrainGlobe& globe, std::size_t i) {
 }
 
 TEST(OccludingTerrainTiles, NeedHeightsThatAreAsTheyWere) {
-    using Change = std::function<void(TerrainTile&)>;
-    const std::vector<Change> changes{
+    using TileChange = std::function<void(TerrainTile&)>;
+    const std::vector<TileChange> changes{
         [](TerrainTile& tile) { setHeights(tile, 0.0f); },
         [](TerrainTile& tile) { tile.setElevationLayer(makePlain(0.0, 0.2, 0.4, 0.6, 9)->getElevationLayer()); },
     };

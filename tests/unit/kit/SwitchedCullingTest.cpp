@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 #include <osg/Geode>
-#include <osg/Notify>
 #include <osg/Stats>
 #include <osg/ValueObject>
 #include <osgDB/ReadFile>
@@ -18,6 +17,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -129,25 +129,6 @@ TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
     }
 }
 
-/// What is notified while it exists.
-class Notices {
-public:
-    Notices() : _before(osg::getNotifyHandler()) { osg::setNotifyHandler(_lines.get()); }
-    ~Notices() { osg::setNotifyHandler(_before); }
-    Notices(const Notices&) = delete;
-    Notices& operator=(const Notices&) = delete;
-
-    [[nodiscard]] const std::string& text() const { return _lines->text; }
-
-private:
-    struct Lines : osg::NotifyHandler {
-        void notify(osg::NotifySeverity, const char* message) override { text += message; }
-        std::string text;
-    };
-    osg::ref_ptr<osg::NotifyHandler> _before;
-    osg::ref_ptr<Lines> _lines = new Lines;
-};
-
 /// Bins that take turns with stock OSG.
 class ComparedCulling : public SwitchedCulling {
 protected:
@@ -165,7 +146,7 @@ protected:
 
 TEST_F(ComparedCulling, DrawsInEachTurnWhatItsMethodDraws) {
     const auto bins = drawnAfresh(Method::Quadratic, look(1)), spheres = drawnAfresh(Method::Sphere, look(1));
-    const Notices notices;
+    const test::CapturedNotes notices(osg::NOTICE);
     PagedFlight flight(*_scene);
     for (const bool isStock : {false, true, false, true}) {
         EXPECT_TRUE(flight.framesUntil(look(1), [&] {
@@ -208,7 +189,7 @@ TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
 }
 
 TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
-    const Notices notices;
+    const test::CapturedNotes notices;
     for (const char* const text : {"soon", "-1", "0", "nan", ""}) {
         setenv("OSGANALYTICBIN_COMPARE", text, 1);
         const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
@@ -217,8 +198,8 @@ TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
         const auto bins = drawnAfresh(Method::Quadratic, look(1));
         EXPECT_TRUE(flight.framesUntil(look(1), [&] { return flight.time() > 1.0 && flight.drawn() == bins; })) << text;
     }
-    EXPECT_EQ(notices.text().find("a view with bins"), std::string::npos) << notices.text();
-    EXPECT_NE(notices.text().find("not a number of seconds"), std::string::npos) << notices.text();
+    EXPECT_EQ(notices.count("a view with bins"), 0u);
+    EXPECT_EQ(notices.count("not a number of seconds"), 1u);
 }
 
 // The pager has read a file, and merges it after the switch.
