@@ -12,6 +12,7 @@
 #include <osg/Transform>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -20,8 +21,8 @@ namespace osgAnalyticBin {
 /// osgTerrain tiles. It does not go below transforms that may move.
 class OSGANALYTICBIN_EXPORT TileFinder : public osg::NodeVisitor {
 public:
-    /// Starts in this frame. Use it for a file that is paged below a known database.
-    explicit TileFinder(const TileFrame& frame = {});
+    /// Starts in this frame. Use it for a file that is paged below a known database. `ground`: CullOptions::ground
+    explicit TileFinder(const TileFrame& frame = {}, const std::string& ground = {});
 
     /// Visits a node; called by OSG's traversal.
     void apply(osg::Node& node) override;
@@ -65,6 +66,7 @@ private:
     [[nodiscard]] bool isTile(osg::Node& node) const;
 
     TileFrame _frame;
+    const std::string _ground;
     std::size_t _ordinal = 0;
     const osg::Node* _tile = nullptr;  // the tile being visited
     int _depth = 0;                    // of tiles and PagedLODs

@@ -30,7 +30,6 @@ struct TileFrame {
     /// root file itself.
     std::string file;
     bool isBelowTile = false;  ///< Whether the file is paged below a tile: then plain meshes in it are leaf tiles.
-    std::string ground;        ///< CullOptions::ground
 
     /// Whether the frame is that of a globe or of a map.
     [[nodiscard]] bool isKnown() const { return ellipsoid || isProjected; }

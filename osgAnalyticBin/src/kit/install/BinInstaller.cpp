@@ -42,22 +42,38 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Marks a database's own request to install bins as done; the horizon that it declares is used where the installer's
-// options give none. Returns: the options for the node and what is below it.
-CullOptions settled(osg::Node& node, const CullOptions& options) {
-    CullOptions effective = options;
-    for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
-        const osg::ref_ptr<InstallRequest> request = findCallback<InstallRequest>(first);
-        if (!request) continue;
-        const CullOptions declared = request->getCullOptions();
-        if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
-            effective.horizonUse = HorizonUse::Given;
-            effective.horizon = declared.horizon;
+// For a node and what is below it: marks a database's own request to install bins as done, and uses the horizon that it
+// declares where the installer's options give none. It uses little stack, for scenes that are nested deep.
+class DeclaredHorizon {
+public:
+    DeclaredHorizon(osg::Node& node, CullOptions& options)
+        : _options(options), _outerUse(options.horizonUse), _outer(options.horizon) {
+        for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
+            const osg::ref_ptr<InstallRequest> request = findCallback<InstallRequest>(first);
+            if (request) use(*request);
         }
-        request->setDone();
     }
-    return effective;
-}
+    ~DeclaredHorizon() {
+        _options.horizonUse = _outerUse;
+        _options.horizon = _outer;
+    }
+    DeclaredHorizon(const DeclaredHorizon&) = delete;
+    DeclaredHorizon& operator=(const DeclaredHorizon&) = delete;
+
+private:
+    void use(InstallRequest& request) {
+        const CullOptions& declared = request.getCullOptions();
+        if (_options.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+            _options.horizonUse = HorizonUse::Given;
+            _options.horizon = declared.horizon;
+        }
+        request.setDone();
+    }
+
+    CullOptions& _options;
+    const HorizonUse _outerUse;
+    const double _outer;
+};
 
 // OSG draws a drawable regardless of what its callbacks decide.
 void warnOfDrawable(const osg::Node& node) {
@@ -68,7 +84,6 @@ void warnOfDrawable(const osg::Node& node) {
 // What the application says of the frame of the node that bins are installed on.
 TileFrame frameBy(const CullOptions& options) {
     TileFrame frame;
-    frame.ground = options.ground;
     if (options.globe)
         frame.ellipsoid = new osg::EllipsoidModel(options.globe->equatorialRadius(), options.globe->polarRadius());
     return frame;
@@ -99,16 +114,14 @@ bool hasTileBelow(osg::Node& subgraph) {
 }  // namespace
 
 BinInstaller::BinInstaller(const CullOptions& options)
-    : TileFinder(frameBy(options)), _options(options), _coverage(std::make_shared<Coverages>()) {}
+    : TileFinder(frameBy(options), options.ground), _options(options), _coverage(std::make_shared<Coverages>()) {}
 
 BinInstaller::~BinInstaller() {
     takeOff(_nested);
 }
 
 void BinInstaller::continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent) {
-    TileFrame own = frame;
-    own.ground = _options.ground;
-    setFrame(own);
+    setFrame(frame);
     _isReading = true;
     _database = database;
     _index = database->index();
@@ -195,29 +208,30 @@ void BinInstaller::beginNamedGlobe(osg::Node& root) {
 }
 
 void BinInstaller::apply(osg::Node& node) {
-    const Scoped options(_options, settled(node, _options));
+    const DeclaredHorizon horizon(node, _options);
     TileFinder::apply(node);
 }
 
 void BinInstaller::apply(osg::Transform& node) {
-    const Scoped options(_options, settled(node, _options));
+    const DeclaredHorizon horizon(node, _options);
     TileFinder::apply(node);
 }
 
 void BinInstaller::apply(osg::PagedLOD& node) {
-    const Scoped options(_options, settled(node, _options));
+    const DeclaredHorizon horizon(node, _options);
     const Scoped inMesh(_isInMesh, false);
     TileFinder::apply(node);
 }
 
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
-    const Scoped options(_options, settled(node, _options));
+    const DeclaredHorizon horizon(node, _options);
     const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
     if (isForeign && installsBins()) Database::report(*recordBetween(), Finding::Unverifiable);
-    if (installsBins() && isGlobeBroken(node)) {
+    const bool isBroken = installsBins() && isGlobeBroken(node);
+    const Scoped method(_options.method, isBroken ? Method::Sphere : _options.method);
+    if (isBroken) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
-        _options.method = Method::Sphere;
     }
     const Scoped parent(_parent, isForeign ? nullptr : _parent);
     const bool isRefit = _refitted.valid();

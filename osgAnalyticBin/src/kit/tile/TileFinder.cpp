@@ -107,7 +107,8 @@ bool isProjected(const osg::CoordinateSystemNode& node) {
 
 }  // namespace
 
-TileFinder::TileFinder(const TileFrame& frame) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _frame(frame) {
+TileFinder::TileFinder(const TileFrame& frame, const std::string& ground)
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _frame(frame), _ground(ground) {
     setNodeMaskOverride(~0u);
 }
 
@@ -145,7 +146,7 @@ bool TileFinder::isTile(osg::Node& node) const {
     // OSG culls a drawable after its callbacks, whatever these say
     if (hasStoredBin(node)) return !node.asDrawable();
     if (!_frame.isKnown()) return false;
-    if (!_frame.ground.empty()) return node.getName() == _frame.ground && !node.asDrawable() && isFixedMesh(node);
+    if (!_ground.empty()) return node.getName() == _ground && !node.asDrawable() && isFixedMesh(node);
     if (isTerrainTile(node)) return true;
     if (dynamic_cast<osg::PagedLOD*>(&node)) {
         const auto meshes = ownMeshes(node);
