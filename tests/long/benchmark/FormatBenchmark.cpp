@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Bytes, times and GPU memory of tiles in other formats than a database has them; the table of doc/formats.md.
+// Bytes, times and GPU memory of tiles in other formats than a database has them: doc/results/formats.csv.
 //     osganalyticbin_formats FOLDER...        each a folder of .osgb files as osgbindem makes them
 // Folders of meshes are rewritten in every format; of packed tiles, much smaller than what they become, the reading
 // alone is timed.
