@@ -112,10 +112,12 @@ def main():
         if command.startswith("export "):
             exports.append(command)
             continue
-        if re.match(r"\S*osg(bin)?viewer ", command):
+        # what stands before the program: environment variables
+        viewer = re.match(r"((?:[A-Z_]+=\S+ )*)(\S*osg(?:bin)?viewer .*)", command)
+        if viewer:
             frames = "" if ".binflight" in command else "OSG_RUN_FRAME_COUNT=3 "
             display = 9000 + os.getpid() % 3000
-            command = f"{frames}xvfb-run -a -n {display} -s '-screen 0 320x240x24 -noreset' {command}"
+            command = (f"{viewer[1]}{frames}xvfb-run -a -n {display} -s '-screen 0 320x240x24 -noreset' {viewer[2]}")
         code, said = run("\n".join(exports + [command]), scratch, environment)
         print(f"{'ok' if code == 0 else 'FAILED':8} {line}", flush=True)
         if code:
