@@ -60,7 +60,7 @@ const std::vector<UsedProgram> kPrograms{
     {"osgbinassembly", "--parts 1 --cameras 1 --output @/absent/plant.osgb", {"--parts 0"}},
     {"osgbinbench",
      "--compare @/old.json @/new.json",
-     {"", "earth.osgb", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
+     {"", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
       "earth.osgb --path p.csv --frames 9 --plot plots"}},
     {"osgbinbench report", "@/none @/bins", {"", "a b --labels one"}},
     {"osgbinbench scale", "--json @/absent/scale.json", {"--cells 3", "--methods cube", "--series shape"}},
