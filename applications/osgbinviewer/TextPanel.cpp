@@ -51,14 +51,16 @@ osg::ref_ptr<osg::Geometry> makeBackground(float left, float bottom, float width
 TextPanel::TextPanel(Corner corner) : _corner(corner), _hud(new osg::Camera) {
     _hud->setNodeMask(0);
     _hud->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    _hud->setRenderOrder(osg::Camera::POST_RENDER);
-    _hud->setClearMask(0);
+    // In the window's own render stage: where two cull threads meet the panel for the first time, both would make OSG's
+    // cache of stages.
+    _hud->setRenderOrder(osg::Camera::NESTED_RENDER);
     _hud->setAllowEventFocus(false);
     osg::StateSet& state = *_hud->getOrCreateStateSet();
     state.setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     state.setMode(GL_BLEND, osg::StateAttribute::ON);
-    state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+    constexpr int kLast = 1000;
+    state.setRenderBinDetails(kLast, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
 }
 
 TextPanel::~TextPanel() = default;
