@@ -118,7 +118,7 @@ def names_in(text):
 
 def wrong_names(root, pages):
     words = words_of_code(root)
-    files = ["/" + str(f.relative_to(root)) for f in root.rglob("*") if "build" not in f.parts and ".git" not in f.parts]
+    files = [f"/{f.relative_to(root)}" for top in ("osgAnalyticBin", "applications", "tests") for f in (root / top).rglob("*")]
     for page, texts in pages.items():
         for name in sorted({name for text in texts for name in names_in(text)}):
             is_path = "/" in name or "." in name
