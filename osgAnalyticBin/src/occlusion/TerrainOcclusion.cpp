@@ -56,6 +56,12 @@ Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& al
     return ground;
 }
 
+TerrainHider::Hidden nothingFor(const char* missing) {
+    TerrainHider::Hidden hidden;
+    hidden.missing = missing;
+    return hidden;
+}
+
 std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
     if (!view.region) return std::nullopt;
     return view.region->extents();
@@ -171,19 +177,23 @@ std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& l
 }  // namespace
 
 TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
-    if (!view.nearBound && !std::isfinite(view.nearReach)) return {};
+    constexpr const char* kSteep = "a view that is steeper than 78 degrees nowhere";
+    constexpr const char* kNearPlane = "a near plane that surely cuts no terrain";
+    if (!view.nearBound && !std::isfinite(view.nearReach)) return nothingFor(kNearPlane);
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
-    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};
+    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear)
+        return nothingFor("no culling by the near plane");
+    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return nothingFor("an eye over the database");
     const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
     const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
-    if (!lines) return {};
+    if (!lines) return nothingFor(kSteep);
     if (!_found) _found.emplace();
     FoundOcclusion& found = *_found;
     Hidden hidden;
     const Ground ground = describe(view, shown, found.shown, hidden.withoutPlates);
     hidden.isAwaited = ground == Ground::Awaited;
+    hidden.missing = hidden.isAwaited ? "tiles that are prepared: wait a moment" : "tiles without holes";
     if (ground != Ground::Known) return hidden;
     const auto spanThen = PictureSpan::of(*lines, found.eye);
     found.leaveOut(view.planes, view.ellipsoid);
@@ -193,14 +203,14 @@ TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<
         left && left->reach <= found.nearReach && !(view.nearBound && isMuchNearer(left->reach, found));
     if (!isServed) {
         const auto span = PictureSpan::of(*lines, lines->frameAt(view.eye));
-        if (!span) return {};
+        if (!span) return nothingFor(kSteep);
         aim(found, *lines, view.eye, *span, spanThen);
         found.tiles = found.shown;
         found.region = regionOf(view);
         left = search(view, *lines, shown, _nearMeshes, found);
         if (!left) {
             _found.reset();
-            return {};
+            return nothingFor(kNearPlane);
         }
         found.uses = 1;
     }
