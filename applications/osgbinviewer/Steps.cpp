@@ -67,7 +67,7 @@ void Steps::runOne(const std::string& verb, const std::string& value) {
 void Steps::standAt(const std::string& name) {
     osg::Camera& camera = *_viewer.getCamera();
     if (name == "home") {
-        const HomeView home = homeViewOf(*_viewer.getSceneData());
+        const HomeView home = homeViewOf(*_viewer.getSceneData(), camera.getProjectionMatrix());
         camera.setViewMatrixAsLookAt(home.eye, home.center, home.up);
         return drawUntilIdle();
     }

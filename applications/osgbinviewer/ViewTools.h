@@ -12,21 +12,7 @@
 
 #include <optional>
 
-namespace osgGA {
-class GUIActionAdapter;
-class GUIEventAdapter;
-}  // namespace osgGA
-namespace osgViewer {
-class View;
-}
-
 namespace osgAnalyticBin::viewer {
-
-/// The osgViewer view that an event handler was called for. Returns: nullptr for other viewers.
-[[nodiscard]] osgViewer::View* viewOf(osgGA::GUIActionAdapter& action);
-
-/// Whether another handler has handled an event; FRAME events are for all handlers.
-[[nodiscard]] bool isTaken(const osgGA::GUIEventAdapter& event);
 
 /// Where a ray from the eye meets a globe's ellipsoid first. Frame: the world's.
 [[nodiscard]] std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye,
