@@ -35,10 +35,10 @@ osg::ref_ptr<osg::Node> makeNode(const SurveyedTile& tile, bool withQuadratic) {
     osg::Vec4 faces = colour;
     faces.a() = isEnd(tile) ? BinDisplayHandler::kOpacity : 0.0F;
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform(tile.ecefToWorld);
-    node->addChild(makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Bin), faces, colour, isEnd(tile) ? 21 : 20));
+    node->addChild(makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Bin), faces, colour, isEnd(tile) ? 22 : 21));
     if (withQuadratic) {
         node->addChild(
-            makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Quadratic), osg::Vec4(), kQuadraticColour, 22));
+            makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Quadratic), osg::Vec4(), kQuadraticColour, 23));
     }
     return node;
 }

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "HomeView.h"
-
-#include "CameraView.h"
+#include "ViewTools.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kRadiansPerStep = 3.14159265358979323846 / 180.0;
 constexpr int kFewestSteps = 16;
-constexpr double kInFront = 1e-3;  // of the distance: more than depth buffers tell apart
+const osg::Vec4 kBackground(0.2F, 0.2F, 0.4F, 1.0F);  // OSG's, of a window
+constexpr double kInFront = 1e-3;                     // of the distance: more than depth buffers tell apart
 
 // Of a box's parameter: chords of at most a degree, and finer in tiles near by, so that terrain does not come through.
 int stepsOf(const core::Interval& angles) {
@@ -169,10 +170,14 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
         const auto colours = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces, 19);
         depths->getStateSet()->setAttribute(new osg::ColorMask(false, false, false, false));
         depths->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, true));
-        // those beyond the far plane have no depth
-        colours->getStateSet()->setRenderBinDetails(19, "DepthSortedBin");
-        for (const auto& part : {depths, colours}) part->getStateSet()->setAttributeAndModes(new osg::CullFace);
-        slab->addChild(nearer(kInFront, *placed(place, {depths, colours})));
+        // Beyond the far plane all have the same depth: there the nearest slab covers the others.
+        osg::Vec4 mixed = faces * faces.a() + kBackground * (1.0F - faces.a());
+        mixed.a() = 1.0F;
+        const auto beyond = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, mixed, 20);
+        beyond->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 1.0, 1.0, false));
+        beyond->getStateSet()->setRenderBinDetails(20, "DepthSortedBin");
+        for (const auto& part : {depths, colours, beyond}) part->getStateSet()->setAttributeAndModes(new osg::CullFace);
+        slab->addChild(nearer(kInFront, *placed(place, {depths, colours, beyond})));
     }
     const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges, edgesBin);
     // Edges of neighbours and of the quadratic approximation nearly coincide: the last one drawn wins along its length.

@@ -35,7 +35,7 @@ enum class SlabShape {
 [[nodiscard]] SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape);
 
 /// Faces that look towards the eye, translucent where the colour is, and edges, in ECEF: in front of terrain that they
-/// coincide with. Of several slabs, the nearest face alone is seen. `edgesBin`: render bin of the edges, from 20 on.
+/// coincide with. Of several slabs, the nearest face alone is seen. `edgesBin`: render bin of the edges, from 21 on.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges,
                                                int edgesBin);
 

@@ -6,7 +6,7 @@
 #include "CameraView.h"
 #include "Failure.h"
 #include "FrameCapture.h"
-#include "HomeView.h"
+#include "ViewTools.h"
 
 #include <osg/Timer>
 #include <osgDB/DatabasePager>

@@ -4,7 +4,6 @@
 #include "BinDisplayHandler.h"
 #include "CoveredPictureHandler.h"
 #include "FreezeCullHandler.h"
-#include "HomeView.h"
 #include "MethodSwitchHandler.h"
 #include "ModuleFolder.h"
 #include "PathRecorder.h"
@@ -13,6 +12,7 @@
 #include "SpyViewHandler.h"
 #include "Steps.h"
 #include "TrafficHandler.h"
+#include "ViewTools.h"
 #include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>

@@ -10,11 +10,11 @@
 #include "CsvTable.h"
 #include "DrawnViewer.h"
 #include "FreezeCullHandler.h"
-#include "HomeView.h"
 #include "MethodSwitchHandler.h"
 #include "PathRecorder.h"
 #include "SpyViewHandler.h"
 #include "TrafficHandler.h"
+#include "ViewTools.h"
 #include "ViewerScene.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>

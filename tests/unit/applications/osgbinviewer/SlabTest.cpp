@@ -176,6 +176,8 @@ protected:
 
     [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(const std::vector<osg::ref_ptr<osg::Node>>& nodes) {
         const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        constexpr GLenum kDepthClamp = 0x864F;
+        scene->getOrCreateStateSet()->setMode(kDepthClamp, osg::StateAttribute::ON);
         for (const auto& node : nodes) scene->addChild(node);
         _viewer.setSceneData(scene);
         return picture(_viewer);
@@ -217,7 +219,7 @@ osg::ref_ptr<osg::Node> makeSea(const core::GeodeticBin& bin) {
 TEST_F(SlabPicture, LiesOnFlatTerrainFromFarAndNear) {
     const core::GeodeticBin bin = binDeg({22.5, 45.0}, {0.0, 22.5}, {0.0, 0.0});
     const osg::Vec4 red(1.0F, 0.0F, 0.0F, 1.0F);
-    const osg::ref_ptr<osg::Node> slab = makeSlab(slabMesh(bin, kEarth, SlabShape::Bin), red, red, 20);
+    const osg::ref_ptr<osg::Node> slab = makeSlab(slabMesh(bin, kEarth, SlabShape::Bin), red, red, 21);
     const osg::ref_ptr<osg::Node> sea = makeSea(bin);
     for (const auto& [altitude, away] : {std::pair(1e7, 0.0), {5e5, 1e6}, {5e4, 1e5}, {1e4, 3e4}}) {
         lookAt(33.7, 11.3, altitude, away);
@@ -230,7 +232,7 @@ TEST_F(SlabPicture, DoesNotMixWithTheColoursOfSlabsBehindIt) {
     const auto slab = [](TileVerdict verdict, core::Interval altitude) {
         osg::Vec4 faces = verdictColour(verdict);
         faces.a() = 0.5F;
-        return makeSlab(slabMesh(binDeg({0, 20}, {0, 20}, altitude), kEarth, SlabShape::Bin), faces, faces, 20);
+        return makeSlab(slabMesh(binDeg({0, 20}, {0, 20}, altitude), kEarth, SlabShape::Bin), faces, faces, 21);
     };
     const osg::ref_ptr<osg::Node> sea = makeSea(binDeg({-20, 40}, {-20, 40}, {0.0, 0.0}));
     const auto low = slab(TileVerdict::Hidden, {0.0, 1e4}), high = slab(TileVerdict::Outside, {1e5, 2e5});
@@ -243,6 +245,11 @@ TEST_F(SlabPicture, DoesNotMixWithTheColoursOfSlabsBehindIt) {
     EXPECT_NE(middle(*alone), middle(*pictureOf({sea, low})));
     EXPECT_EQ(middle(*both), middle(*alone));
     EXPECT_EQ(middle(*reverse), middle(*alone));
+    // past the far plane, where CameraCulling's overlay has depths clamped
+    _viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 1e2, 1e5);
+    EXPECT_EQ(middle(*pictureOf({low, high})), middle(*pictureOf({high})));
+    EXPECT_EQ(middle(*pictureOf({high, low})), middle(*pictureOf({high})));
+    EXPECT_NE(middle(*pictureOf({low})), middle(*pictureOf({high})));
 }
 
 }  // namespace
