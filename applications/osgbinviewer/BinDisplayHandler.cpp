@@ -89,10 +89,11 @@ void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera
     }
     const TileCounts counts = survey.counts();
     const bool hasBins = std::any_of(numbers.begin(), numbers.end(), [](std::size_t number) { return number > 0; });
-    std::vector<TextPanel::Line> lines{{"tiles: " + std::to_string(counts.tested) + " tested, " +
+    std::vector<TextPanel::Line> lines{{std::to_string(counts.tested) + " tiles tested, " +
                                             std::to_string(counts.kept) + " kept, " + std::to_string(counts.drawn) +
-                                            " drawn; " + (hasBins ? "bins:" : "no bin decides"),
+                                            " drawn",
                                         kTextColour}};
+    if (!hasBins) lines.push_back({"no bin decides", kTextColour});
     for (std::size_t i = 0; hasBins && i < kVerdicts.size(); ++i) {
         lines.push_back({std::to_string(numbers[i]) + " " + verdictName(kVerdicts[i]), verdictColour(kVerdicts[i])});
     }

@@ -40,7 +40,8 @@ HomeView homeViewOf(osg::Node& scene, const osg::Matrixd& projection) {
                                     : osg::Vec3d(0.0, 1.0, 0.0);
     north -= up * (north * up);
     if (north.normalize() < 1e-6) north.set(0.0, 1.0, 0.0);
-    return {middle + (up - north) * (std::sqrt(0.5) * distanceTo(radius, projection)), middle, up};
+    constexpr double kFlat = 0.8;  // seen aslant, less than its sphere
+    return {middle + (up - north) * (std::sqrt(0.5) * distanceTo(kFlat * radius, projection)), middle, up};
 }
 
 }  // namespace osgAnalyticBin::viewer

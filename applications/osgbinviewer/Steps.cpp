@@ -125,7 +125,7 @@ void Steps::takePicture(const std::string& fileName, osg::GraphicsContext* windo
     camera.removeFinalDrawCallback(capture);
     const osg::ref_ptr<osg::Image> picture = capture->take();
     if (!picture) throw std::runtime_error("--steps: a picture was never drawn");
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 88");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 86");
     if (!osgDB::writeImageFile(*picture, fileName, options)) {
         throw std::runtime_error("--steps: " + fileName + " cannot be written");
     }

@@ -181,8 +181,8 @@ TEST_F(Handlers, ShowASlabForEachBinThatTheTraversalEndsAt) {
     const TileCounts counted = survey.counts();
     const std::vector<std::string> legend = texts(CameraCulling::of(*_viewer.getCamera()).overlay());
     ASSERT_EQ(legend.size(), 7u);
-    EXPECT_EQ(legend[0], "tiles: " + std::to_string(counted.tested) + " tested, " + std::to_string(counted.kept) +
-                             " kept, " + std::to_string(counted.drawn) + " drawn; bins:");
+    EXPECT_EQ(legend[0], std::to_string(counted.tested) + " tiles tested, " + std::to_string(counted.kept) + " kept, " +
+                             std::to_string(counted.drawn) + " drawn");
     EXPECT_EQ(legend[4], std::to_string(counted.hidden) + " behind the horizon");
     press('B');
     EXPECT_EQ(_bins->slabs().getNumChildren(), survey.tiles().size());
