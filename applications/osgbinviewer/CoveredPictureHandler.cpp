@@ -81,9 +81,9 @@ void CoveredPictureHandler::draw(osgViewer::View& view, osg::Camera& camera) {
         _curtain->addChild(makeCurtain(*survey.covered(), hidden->ecefToWorld));
         computeBounds(overlay);
     } else {
-        const char* const missing = survey.notCovered();
-        const std::string text = missing ? std::string("terrain hides nothing; it needs ") + missing
-                                         : "no tile is behind terrain in this view";
+        const char* const missing = survey.notCovered() ? survey.notCovered() : "culling by bins (key n)";
+        const std::string text = survey.covered() ? "no tile is behind terrain in this view"
+                                                  : std::string("terrain hides nothing; it needs ") + missing;
         _panel->show(camera, {{text, verdictColour(TileVerdict::Occluded)}});
     }
 }

@@ -248,6 +248,9 @@ TEST_F(Handlers, SayWhatIsMissingForTerrainToHideTiles) {
     options.horizonUse = HorizonUse::Off;
     setCullOptions(*scene->getChild(0), options);
     expectNeed("options without horizon=off");
+    options.method = Method::Sphere;
+    setCullOptions(*scene->getChild(0), options);
+    expectNeed("culling by bins (key n)");
 }
 
 // Past the globe, so that the scene has no lines of its own.
