@@ -3,11 +3,11 @@
 
 #pragma once
 
+#include "KeyHandler.h"
+
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <osg/Group>
-#include <osg/Vec4>
-#include <osgGA/GUIEventHandler>
 
 #include <map>
 
@@ -15,17 +15,11 @@ namespace osgAnalyticBin::viewer {
 
 class TextPanel;
 
-/// The colour that a verdict is shown in, opaque.
-[[nodiscard]] osg::Vec4 verdictColour(TileVerdict verdict);
-
-/// A short name: "outside", "straddling", "inside", "behind the horizon", "beyond an edge".
-[[nodiscard]] const char* verdictName(TileVerdict verdict);
-
 /// Key `B`: draws the bins that the view's camera tests as curved slabs, coloured by verdict: first those where its
-/// cull traversal ends (tiles culled or drawn), then all, then none. Key `Q`: the same bins' quadratic approximation as
-/// white lines. Bins of maps are not drawn. One handler for each view.
+/// cull traversal ends (tiles culled or drawn), then also the edges of the others, then none. Key `Q`: the same bins'
+/// quadratic approximation as white lines. Bins of maps are not drawn. One handler for each view.
 /// Cost: while shown, a TileSurvey for each frame.
-class BinDisplayHandler : public osgGA::GUIEventHandler {
+class BinDisplayHandler : public KeyHandler {
 public:
     /// Which bins are drawn.
     enum class Shown {
@@ -33,6 +27,9 @@ public:
         Ends,     ///< where the cull traversal ends: tiles culled or drawn
         All       ///< all that it came to
     };
+
+    /// Of faces. With less, blue of the sea turns red to violet.
+    static constexpr float kOpacity = 0.6F;
 
     BinDisplayHandler();
 
@@ -44,30 +41,25 @@ public:
     /// The present drawing in the world's frame, one child for each slab.
     [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
 
-    /// Handles the keys, and draws anew at every frame. Returns: whether a key was handled.
-    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
-    /// The keys, for osgViewer::HelpHandler.
-    void getUsage(osg::ApplicationUsage& usage) const override;
-
 protected:
     ~BinDisplayHandler() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
 
 private:
     struct Slab {
         AnalyticBin bin;
         TileVerdict verdict;
+        bool isEnd;
         bool withQuadratic;
         osg::Matrixd ecefToWorld;
         osg::ref_ptr<osg::Node> node;
         bool isUsed;
     };
 
-    void draw(const TileSurvey& survey);
+    void drawSlabs(const TileSurvey& survey);
     osg::Node* slabOf(const SurveyedTile& tile);
     void showLegend(const TileSurvey& survey, osg::Camera& camera);
 
-    static constexpr int kKeyBins = 'B';
-    static constexpr int kKeyQuadratic = 'Q';
     Shown _shown = Shown::Nothing;
     bool _showsQuadratic = false;
     const osg::ref_ptr<osg::Group> _slabs;

@@ -4,18 +4,14 @@
 #include "CoveredPictureHandler.h"
 
 #include "IndexedGeometry.h"
+#include "TextPanel.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
-#include <osg/BlendFunc>
-#include <osg/Geode>
-#include <osg/LineWidth>
-#include <osg/MatrixTransform>
-#include <osgViewer/View>
-
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace osgAnalyticBin::viewer {
@@ -24,18 +20,13 @@ namespace {
 
 constexpr double kDistance = 1000.0;  // metres from the eye to the curtain
 constexpr double kSteepest = 5.0;     // walls of earth reach farther down than any picture
-const osg::Vec4 kFaceColour(0.1F, 0.75F, 0.9F, 0.35F);
-const osg::Vec4 kTopColour(0.3F, 1.0F, 1.0F, 1.0F);
 
+// In front of everything.
 osg::ref_ptr<osg::Geometry> makePart(osg::Vec3Array& vertices, GLenum primitives,
-                                     const std::vector<unsigned int>& indices, const osg::Vec4& colour, int bin) {
-    osg::ref_ptr<osg::Geometry> part = makeIndexed(vertices, primitives, indices, colour);
-    osg::StateSet& state = *part->getOrCreateStateSet();
-    state.setMode(GL_BLEND, osg::StateAttribute::ON);
-    state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
-    state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-    state.setAttributeAndModes(new osg::LineWidth(2.0F));
-    state.setRenderBinDetails(bin, "RenderBin");
+                                     const std::vector<unsigned int>& indices, float opacity, int bin) {
+    osg::ref_ptr<osg::Geometry> part =
+        makeIndexed(vertices, primitives, indices, osg::Vec4(1.0F, 1.0F, 1.0F, opacity), bin);
+    part->getStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     return part;
 }
 
@@ -60,49 +51,41 @@ osg::ref_ptr<osg::Node> makeCurtain(const CoveredPicture& picture, const osg::Ma
         faces.insert(faces.end(), {first, first + 1, first + 3, first, first + 3, first + 2});
         tops.insert(tops.end(), {first + 2, first + 3});
     }
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(makePart(*vertices, GL_TRIANGLES, faces, kFaceColour, 30));
-    geode->addDrawable(makePart(*vertices, GL_LINES, tops, kTopColour, 31));
     const glm::dvec3& eye = picture.eye.origin;
-    osg::ref_ptr<osg::MatrixTransform> placed =
-        new osg::MatrixTransform(osg::Matrixd::translate(eye.x, eye.y, eye.z) * ecefToWorld);
-    placed->addChild(geode);
-    return placed;
+    return placed(osg::Matrixd::translate(eye.x, eye.y, eye.z) * ecefToWorld,
+                  {makePart(*vertices, GL_TRIANGLES, faces, 0.35F, 30), makePart(*vertices, GL_LINES, tops, 1.0F, 31)});
 }
 
 }  // namespace
 
-CoveredPictureHandler::CoveredPictureHandler() : _curtain(new osg::Group) {}
+CoveredPictureHandler::CoveredPictureHandler()
+    : _curtain(new osg::Group), _panel(new TextPanel(TextPanel::Corner::TopRight)) {
+    addKey('O', "Show what of the picture terrain covers: tiles behind it are culled.",
+           [this](osgViewer::View&) { _isShown = !_isShown; });
+}
 CoveredPictureHandler::~CoveredPictureHandler() = default;
 
-bool CoveredPictureHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
-        _isShown = !_isShown;
-        return true;
-    }
-    if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
-    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
-    if (cameras.empty()) return false;
-    osg::Group& overlay = CameraCulling::of(*cameras.front()).overlay();
+void CoveredPictureHandler::draw(osgViewer::View& view, osg::Camera& camera) {
+    osg::Group& overlay = CameraCulling::of(camera).overlay();
     _curtain->removeChildren(0, _curtain->getNumChildren());
+    _panel->hide();
     if (!_isShown) {
         overlay.removeChild(_curtain);
-        return false;
+        return;
     }
     if (!overlay.containsNode(_curtain)) overlay.addChild(_curtain);
-    const TileSurvey survey(*cameras.front(), *view->getFrameStamp());
+    const TileSurvey survey(camera, *view.getFrameStamp());
     const auto hidden = std::find_if(survey.tiles().begin(), survey.tiles().end(),
                                      [](const SurveyedTile& tile) { return tile.verdict == TileVerdict::Occluded; });
-    if (survey.covered() && hidden != survey.tiles().end())
+    if (survey.covered() && hidden != survey.tiles().end()) {
         _curtain->addChild(makeCurtain(*survey.covered(), hidden->ecefToWorld));
-    computeBounds(overlay);
-    return false;
-}
-
-void CoveredPictureHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(kKey, "Show what of the picture terrain covers: tiles behind it are culled.");
+        computeBounds(overlay);
+    } else {
+        const char* const missing = survey.notCovered() ? survey.notCovered() : "culling by bins (key n)";
+        const std::string text = survey.covered() ? "no tile is behind terrain in this view"
+                                                  : std::string("terrain hides nothing; it needs ") + missing;
+        _panel->show(camera, {{text, verdictColour(TileVerdict::Occluded)}});
+    }
 }
 
 }  // namespace osgAnalyticBin::viewer

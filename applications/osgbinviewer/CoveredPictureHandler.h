@@ -3,34 +3,34 @@
 
 #pragma once
 
+#include "KeyHandler.h"
+
 #include <osg/Group>
-#include <osgGA/GUIEventHandler>
 
 namespace osgAnalyticBin::viewer {
 
+class TextPanel;
+
 /// Key `O`: draws a curtain over the part of the picture that terrain covers. Tiles behind the curtain are culled with
 /// `occlusion=on`, and with `auto` while it is in use. With frozen culling and in a second window, the curtain stands
-/// in front of the eye that culls. There is no curtain while terrain hides no tile. Use one handler for each view.
+/// in front of the eye that culls. Where there is no curtain, a line says what is
+/// missing for terrain to hide tiles. One handler for each view.
 /// Cost: one TileSurvey a frame while the curtain is shown.
-class CoveredPictureHandler : public osgGA::GUIEventHandler {
+class CoveredPictureHandler : public KeyHandler {
 public:
     CoveredPictureHandler();
 
     /// The curtain, in the world's frame. It has no children while nothing is drawn.
     [[nodiscard]] const osg::Group& curtain() const { return *_curtain; }
 
-    /// Handles the key, and makes the curtain anew in every frame. Returns: whether the key was handled.
-    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
-    /// The key, for osgViewer::HelpHandler.
-    void getUsage(osg::ApplicationUsage& usage) const override;
-
 protected:
     ~CoveredPictureHandler() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
 
 private:
-    static constexpr int kKey = 'O';
     bool _isShown = false;
     const osg::ref_ptr<osg::Group> _curtain;
+    const osg::ref_ptr<TextPanel> _panel;
 };
 
 }  // namespace osgAnalyticBin::viewer

@@ -7,8 +7,6 @@
 
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
-#include <osgViewer/View>
-
 namespace osgAnalyticBin::viewer {
 
 namespace {
@@ -23,15 +21,16 @@ void removeFrustum(osg::Group& overlay) {
 
 }  // namespace
 
-FreezeCullHandler::FreezeCullHandler() = default;
+FreezeCullHandler::FreezeCullHandler() {
+    addKey('F', "Freeze the culling camera, to fly round what it draws.",
+           [this](osgViewer::View& view) { setFrozen(view, !_isFrozen); });
+}
 FreezeCullHandler::~FreezeCullHandler() = default;
 
-void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || !view->getSceneData()) return;
+void FreezeCullHandler::setFrozen(osgViewer::View& view, bool frozen) {
     _isFrozen = frozen;
-    const auto globe = flight::findGlobe(*view->getSceneData());
-    for (osg::Camera* camera : CameraCulling::drawingCameras(*view)) {
+    const auto globe = flight::findGlobe(*view.getSceneData());
+    for (osg::Camera* camera : CameraCulling::drawingCameras(view)) {
         CameraCulling& culling = CameraCulling::of(*camera);
         culling.thaw();
         removeFrustum(culling.overlay());
@@ -40,24 +39,11 @@ void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) 
         // the window may be resized
         seen.viewport = new osg::Viewport(*seen.viewport);
         culling.freeze(seen);
-        const osg::ref_ptr<osg::Node> frustum = makeFrustum(seen, globe, view->getSceneData()->getBound().radius());
+        const osg::ref_ptr<osg::Node> frustum = makeFrustum(seen, globe, view.getSceneData()->getBound().radius());
         frustum->setName(kFrustumName);
         culling.overlay().addChild(frustum);
         computeBounds(*frustum);
     }
-}
-
-bool FreezeCullHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getKey() != kKey) {
-        return false;
-    }
-    setFrozen(action, !_isFrozen);
-    action.requestRedraw();
-    return true;
-}
-
-void FreezeCullHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(kKey, "Freeze the culling camera, to fly round what it draws.");
 }
 
 }  // namespace osgAnalyticBin::viewer

@@ -4,13 +4,7 @@
 #include "IndexedGeometry.h"
 #include "ViewTools.h"
 
-#include <osg/CullFace>
-#include <osg/Depth>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/LineWidth>
-#include <osg/MatrixTransform>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -20,8 +14,9 @@ namespace osgAnalyticBin::viewer {
 namespace {
 
 constexpr int kStepsOfSide = 64;
-const osg::Vec4 kSideColour(0.2F, 0.9F, 1.0F, 0.13F);
-const osg::Vec4 kEdgeColour(0.3F, 1.0F, 1.0F, 1.0F);
+// of no verdict
+const osg::Vec4 kSideColour(1.0F, 0.5F, 1.0F, 0.13F);
+const osg::Vec4 kEdgeColour(1.0F, 0.5F, 1.0F, 1.0F);
 
 // Points all round the frustum's border, where its rays end.
 std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<flight::Globe>& globe, double reach,
@@ -50,18 +45,6 @@ double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
     return 1.15 * std::sqrt(height * (2.0 * radius + height));
 }
 
-osg::ref_ptr<osg::Geometry> makePart(osg::Vec3Array& vertices, GLenum primitives, const osg::Vec4& colour,
-                                     const std::vector<unsigned int>& indices) {
-    osg::ref_ptr<osg::Geometry> geometry = makeIndexed(vertices, primitives, indices, colour);
-    osg::StateSet& state = *geometry->getOrCreateStateSet();
-    state.setMode(GL_BLEND, osg::StateAttribute::ON);
-    state.setAttributeAndModes(new osg::CullFace, osg::StateAttribute::OFF);
-    state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
-    state.setAttributeAndModes(new osg::LineWidth(2.0F));
-    state.setRenderBinDetails(primitives == GL_LINES ? 21 : 15, "RenderBin");
-    return geometry;
-}
-
 }  // namespace
 
 osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<flight::Globe>& globe, double reach) {
@@ -79,12 +62,8 @@ osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional
         edges.insert(edges.end(), {i + 1, next + 1});
         if (i % kStepsOfSide == 0) edges.insert(edges.end(), {0, i + 1});
     }
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(makePart(*vertices, GL_TRIANGLES, kSideColour, sides));
-    geode->addDrawable(makePart(*vertices, GL_LINES, kEdgeColour, edges));
-    osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrixd::translate(eye));
-    placed->addChild(geode);
-    return placed;
+    return placed(osg::Matrixd::translate(eye), {makeIndexed(*vertices, GL_TRIANGLES, sides, kSideColour, 15),
+                                                 makeIndexed(*vertices, GL_LINES, edges, kEdgeColour, 21)});
 }
 
 }  // namespace osgAnalyticBin::viewer

@@ -9,8 +9,6 @@
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
-#include <osgViewer/View>
-
 #include <array>
 #include <string>
 
@@ -46,22 +44,25 @@ TextPanel::Line changeLine(const std::string& what, std::size_t before, std::siz
 }  // namespace
 
 MethodSwitchHandler::MethodSwitchHandler(const CullOptions& options)
-    : _options(options), _methodBefore(options.method), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {}
+    : _options(options), _methodBefore(options.method), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {
+    addKey('n', "Next culling method, and its change in tiles.",
+           [this](osgViewer::View& view) { setMethod(view, neighbour(_options.method, 1)); });
+    addKey('N', "Previous culling method.",
+           [this](osgViewer::View& view) { setMethod(view, neighbour(_options.method, kMethods.size() - 1)); });
+}
 
 MethodSwitchHandler::~MethodSwitchHandler() = default;
 
-void MethodSwitchHandler::setMethod(osgGA::GUIActionAdapter& action, Method method) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || !view->getSceneData()) return;
-    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
+void MethodSwitchHandler::setMethod(osgViewer::View& view, Method method) {
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(view);
     _methodBefore = _options.method;
     if (!cameras.empty()) {
-        _countsBefore = TileSurvey(*cameras.front(), *view->getFrameStamp()).counts();
+        _countsBefore = TileSurvey(*cameras.front(), *view.getFrameStamp()).counts();
         _viewBefore = CameraCulling::cullingView(*cameras.front()).view;
     }
     _options.method = method;
-    setCullOptions(*view->getSceneData(), _options);
-    _shownUntil = view->getFrameStamp()->getReferenceTime() + kSecondsShown;
+    setCullOptions(*view.getSceneData(), _options);
+    _shownUntil = view.getFrameStamp()->getReferenceTime() + kSecondsShown;
 }
 
 void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frameStamp) {
@@ -84,25 +85,10 @@ void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frame
     _panel->show(camera, lines);
 }
 
-bool MethodSwitchHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
-        const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
-        const bool isWanted = _shownUntil >= 0.0 && !cameras.empty();
-        if (isWanted) showChange(*cameras.front(), *view->getFrameStamp());
-        if (isWanted && !_panel->isShown()) _shownUntil = -1.0;
-        return false;
-    }
-    if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    if (event.getKey() != kKeyNext && event.getKey() != kKeyPrevious) return false;
-    setMethod(action, neighbour(_options.method, event.getKey() == kKeyNext ? 1 : kMethods.size() - 1));
-    return true;
-}
-
-void MethodSwitchHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(kKeyNext, "Next culling method, and its change in tiles.");
-    usage.addKeyboardMouseBinding(kKeyPrevious, "Previous culling method.");
+void MethodSwitchHandler::draw(osgViewer::View& view, osg::Camera& camera) {
+    if (_shownUntil < 0.0) return;
+    showChange(camera, *view.getFrameStamp());
+    if (!_panel->isShown()) _shownUntil = -1.0;
 }
 
 }  // namespace osgAnalyticBin::viewer

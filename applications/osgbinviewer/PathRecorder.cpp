@@ -9,7 +9,6 @@
 #include <osgUtil/CullVisitor>
 #include <osgUtil/SceneView>
 #include <osgViewer/Renderer>
-#include <osgViewer/View>
 
 #include <cmath>
 
@@ -73,7 +72,12 @@ std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     return pose;
 }
 
-PathRecorder::PathRecorder(const std::string& fileName, double interval) : _fileName(fileName), _interval(interval) {}
+PathRecorder::PathRecorder(const std::string& fileName, double interval) : _fileName(fileName), _interval(interval) {
+    addKey('R', "Start or stop recording the camera for osgbinbench.", [this](osgViewer::View&) {
+        setRecording(!_isRecording);
+        OSG_NOTICE << (_isRecording ? "recording the camera into " : "camera path written: ") << _fileName << std::endl;
+    });
+}
 
 PathRecorder::~PathRecorder() {
     write();
@@ -108,25 +112,10 @@ void PathRecorder::record(osg::Camera& camera, double time) {
     _lastView = camera.getViewMatrix();
 }
 
-bool PathRecorder::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
-        setRecording(!_isRecording);
-        OSG_NOTICE << (_isRecording ? "recording the camera into " : "camera path written: ") << _fileName << std::endl;
-        return true;
-    }
-    if (event.getEventType() != osgGA::GUIEventAdapter::FRAME || !_isRecording) return false;
-    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
+void PathRecorder::draw(osgViewer::View& view, osg::Camera& camera) {
     // the frame before is the one that was drawn: in the first, number 1, the camera does not stand anywhere yet
-    if (!cameras.empty() && view->getFrameStamp()->getFrameNumber() > 1) {
-        record(*cameras.front(), view->getFrameStamp()->getReferenceTime());
-    }
-    return false;
-}
-
-void PathRecorder::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(kKey, "Start or stop recording the camera for osgbinbench.");
+    if (_isRecording && view.getFrameStamp()->getFrameNumber() > 1)
+        record(camera, view.getFrameStamp()->getReferenceTime());
 }
 
 }  // namespace osgAnalyticBin::viewer

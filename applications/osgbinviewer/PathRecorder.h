@@ -4,9 +4,9 @@
 #pragma once
 
 #include "CameraPath.h"
+#include "KeyHandler.h"
 
 #include <osg/Camera>
-#include <osgGA/GUIEventHandler>
 
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ namespace osgAnalyticBin::viewer {
 /// Key `R`: starts or stops recording the view's camera into a file that osgbinbench plays: a pose every half second
 /// while it moves. The file is written every five seconds, whenever recording stops, and at the end. One handler for
 /// each view.
-class PathRecorder : public osgGA::GUIEventHandler {
+class PathRecorder : public KeyHandler {
 public:
     /// `interval`: seconds between poses.
     explicit PathRecorder(const std::string& fileName, double interval = 0.5);
@@ -33,19 +33,14 @@ public:
     /// What has been recorded so far.
     [[nodiscard]] const std::vector<flight::CameraPose>& path() const { return _path; }
 
-    /// Handles the key, records at every frame, and writes at the end. Returns: whether the key was handled.
-    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
-    /// The keys, for osgViewer::HelpHandler.
-    void getUsage(osg::ApplicationUsage& usage) const override;
-
 protected:
     ~PathRecorder() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
 
 private:
     void record(osg::Camera& camera, double time);
     void write();
 
-    static constexpr int kKey = 'R';
     const std::string _fileName;
     const double _interval;
     bool _isRecording = false;

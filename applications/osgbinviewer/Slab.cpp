@@ -8,13 +8,11 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
-#include <osg/BlendFunc>
+#include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/Depth>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/LineWidth>
-#include <osg/MatrixTransform>
+#include <osg/Transform>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <array>
@@ -27,6 +25,8 @@ namespace {
 
 constexpr double kRadiansPerStep = 3.14159265358979323846 / 180.0;
 constexpr int kFewestSteps = 16;
+const osg::Vec4 kBackground(0.2F, 0.2F, 0.4F, 1.0F);  // OSG's, of a window
+constexpr double kInFront = 1e-3;                     // of the distance: more than depth buffers tell apart
 
 // Of a box's parameter: chords of at most a degree, and finer in tiles near by, so that terrain does not come through.
 int stepsOf(const core::Interval& angles) {
@@ -113,10 +113,36 @@ private:
     SlabMesh _mesh;
 };
 
+// Brings a node nearer to the eye by a share of the distance. The picture of a perspective view stays the same.
+class Nearer : public osg::Transform {
+public:
+    explicit Nearer(double share) : _scale(1.0 - share) {}
+
+    bool computeLocalToWorldMatrix(osg::Matrix& matrix, osg::NodeVisitor* visitor) const override {
+        osgUtil::CullVisitor* const view = visitor ? visitor->asCullVisitor() : nullptr;
+        const bool isPerspective = view && (*view->getProjectionMatrix())(2, 3) != 0.0;
+        if (isPerspective) matrix.postMultScale(osg::Vec3d(_scale, _scale, _scale));
+        return true;
+    }
+
+private:
+    const double _scale;
+};
+
+osg::ref_ptr<osg::Node> nearer(double share, osg::Node& node) {
+    osg::ref_ptr<Nearer> transform = new Nearer(share);
+    transform->addChild(&node);
+    return transform;
+}
+
 }  // namespace
 
-SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape) {
-    const std::array<int, 3> steps{stepsOf(bin.latitude()), stepsOf(bin.longitude()), 1};
+SlabMesh slabMesh(const core::GeodeticBin& of, const core::Ellipsoid& ellipsoid, SlabShape shape) {
+    const std::array<int, 3> steps{stepsOf(of.latitude()), stepsOf(of.longitude()), 1};
+    // of chords, both ways: the top lies outside, or flat terrain would come through
+    const double sag = 0.126 * ellipsoid.equatorialRadius() *
+                       (std::pow(of.latitude().width() / steps[0], 2) + std::pow(of.longitude().width() / steps[1], 2));
+    const core::GeodeticBin bin = of.withAltitude({of.altitude().lower, of.altitude().upper + sag});
     const core::GeodeticMapping mapping(ellipsoid);
     if (shape == SlabShape::Quadratic) {
         const core::QuadraticBin model(mapping, core::parameterBox(bin));
@@ -134,32 +160,31 @@ SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid
         .mesh();
 }
 
-osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges) {
+osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges, int edgesBin) {
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(mesh.vertices.begin(), mesh.vertices.end());
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    const osg::Matrixd place = osg::Matrixd::translate(mesh.origin);
+    const osg::ref_ptr<osg::Group> slab = new osg::Group;
     if (faces.a() > 0.0F) {
-        const auto geometry = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces);
-        osg::StateSet& state = *geometry->getOrCreateStateSet();
-        state.setMode(GL_BLEND, osg::StateAttribute::ON);
-        // The bottom, which flat terrain coincides with, is not seen from above.
-        state.setAttributeAndModes(new osg::CullFace);
-        state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
-        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-        geode->addDrawable(geometry);
+        // Of what is behind each other the nearest face alone is drawn, so that colours do not mix.
+        const auto depths = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces, 18);
+        const auto colours = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces, 19);
+        depths->getStateSet()->setAttribute(new osg::ColorMask(false, false, false, false));
+        depths->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, true));
+        // Beyond the far plane all have the same depth: there the nearest slab covers the others.
+        osg::Vec4 mixed = faces * faces.a() + kBackground * (1.0F - faces.a());
+        mixed.a() = 1.0F;
+        const auto beyond = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, mixed, 20);
+        beyond->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 1.0, 1.0, false));
+        beyond->getStateSet()->setRenderBinDetails(20, "DepthSortedBin");
+        for (const auto& part : {depths, colours, beyond}) part->getStateSet()->setAttributeAndModes(new osg::CullFace);
+        slab->addChild(nearer(kInFront, *placed(place, {depths, colours, beyond})));
     }
-    const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges);
-    osg::StateSet& state = *lines->getOrCreateStateSet();
-    state.setAttributeAndModes(new osg::LineWidth(1.5F));
-    state.setMode(GL_BLEND, osg::StateAttribute::ON);
+    const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges, edgesBin);
     // Edges of neighbours and of the quadratic approximation nearly coincide: the last one drawn wins along its length.
     // What is clamped to the far plane has no lines.
-    state.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
-    // after the faces of all slabs
-    state.setRenderBinDetails(faces.a() > 0.0F ? 20 : 21, "RenderBin");
-    geode->addDrawable(lines);
-    osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin));
-    placed->addChild(geode);
-    return placed;
+    lines->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+    slab->addChild(nearer(2.0 * kInFront, *placed(place, {lines})));
+    return slab;
 }
 
 }  // namespace osgAnalyticBin::viewer

@@ -29,13 +29,14 @@ enum class SlabShape {
 };
 
 /// The six curved faces of a bin, a vertex every degree or finer; triangles are counterclockwise from outside.
-/// Guarantee: every vertex of SlabShape::Bin is on the bin's surface to the rounding of float; the faces leave it by
-/// 500 m at most, the sag of chords of a degree both ways; tests: Slab.*.
-/// Requires: a bin that is not empty.
+/// Guarantee: the top of SlabShape::Bin lies outside the bin, by 500 m at most, the sag of chords of a degree both
+/// ways; all other vertices are on the bin's surface to the rounding of float; tests: Slab.*. Requires: a bin that is
+/// not empty.
 [[nodiscard]] SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape);
 
-/// Faces that look towards the eye, translucent where the colour is, and edges; in ECEF. Slabs without faces are drawn
-/// after those that have some.
-[[nodiscard]] osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges);
+/// Faces that look towards the eye, translucent where the colour is, and edges, in ECEF: in front of terrain that they
+/// coincide with. Of several slabs, the nearest face alone is seen. `edgesBin`: render bin of the edges, from 21 on.
+[[nodiscard]] osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges,
+                                               int edgesBin);
 
 }  // namespace osgAnalyticBin::viewer

@@ -8,7 +8,6 @@
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osg/Notify>
-#include <osgViewer/View>
 #include <osgViewer/ViewerBase>
 
 #include <algorithm>
@@ -143,7 +142,10 @@ private:
     }
 };
 
-SpyViewHandler::SpyViewHandler() : _placement(new Placement) {}
+SpyViewHandler::SpyViewHandler() : _placement(new Placement) {
+    addKey('y', "Second window that shows from aside what the camera draws.",
+           [this](osgViewer::View& view) { setOpen(view, !isOpen()); });
+}
 SpyViewHandler::~SpyViewHandler() = default;
 
 void SpyViewHandler::setOrbit(double azimuth, double elevation, double distance) {
@@ -159,7 +161,7 @@ void SpyViewHandler::setOpen(osgViewer::View& view, bool isOpenWanted) {
 
 void SpyViewHandler::open(osgViewer::View& view) {
     const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(view);
-    if (cameras.empty() || !view.getSceneData()) return;
+    if (cameras.empty()) return;
     osg::Camera& watched = *cameras.front();
     const ThreadPause pause(*view.getViewerBase());
     const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(*watched.getGraphicsContext());
@@ -197,9 +199,10 @@ void SpyViewHandler::close(osgViewer::View& view) {
     _frustum = nullptr;
 }
 
-void SpyViewHandler::drawFrustum(osgViewer::View& view) {
+void SpyViewHandler::draw(osgViewer::View& view, osg::Camera&) {
+    leaveRoomForAWindow();
     osg::ref_ptr<osg::Camera> watched;
-    if (!_frustum || !_placement->camera.lock(watched) || !view.getSceneData()) return;
+    if (!_frustum || !_placement->camera.lock(watched)) return;
     _frustum->removeChildren(0, _frustum->getNumChildren());
     const CameraCulling* culling = CameraCulling::find(*watched);
     // a frozen camera draws its frustum itself, and the spy draws what it draws
@@ -233,28 +236,11 @@ bool SpyViewHandler::orbit(const osgGA::GUIEventAdapter& event) {
     return true;
 }
 
-bool SpyViewHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    osgViewer::View* view = viewOf(action);
-    if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
-        leaveRoomForAWindow();
-        if (isOpen()) drawFrustum(*view);
-        return false;
-    }
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
-        setOpen(*view, !isOpen());
-        return true;
-    }
+bool SpyViewHandler::handleOther(const osgGA::GUIEventAdapter& event, osgViewer::View& view) {
     if (!isOpen() || event.getGraphicsContext() != _camera->getGraphicsContext()) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::CLOSE_WINDOW) {
-        close(*view);
-        return true;
-    }
-    return orbit(event);
-}
-
-void SpyViewHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(kKey, "Second window that shows from aside what the camera draws.");
+    if (event.getEventType() != osgGA::GUIEventAdapter::CLOSE_WINDOW) return orbit(event);
+    close(view);
+    return true;
 }
 
 }  // namespace osgAnalyticBin::viewer

@@ -3,22 +3,16 @@
 
 #pragma once
 
+#include "KeyHandler.h"
+
 #include <osg/GraphicsContext>
 #include <osg/Group>
-#include <osgGA/GUIEventHandler>
-
-namespace osg {
-class Camera;
-}
-namespace osgViewer {
-class View;
-}
 
 namespace osgAnalyticBin::viewer {
 
 /// Key `y`: opens or closes a second window that shows the view's camera from the side: what that camera draws,
 /// and its frustum. Drag in the window to orbit, scroll to zoom. One handler for each view.
-class SpyViewHandler : public osgGA::GUIEventHandler {
+class SpyViewHandler : public KeyHandler {
 public:
     SpyViewHandler();
 
@@ -34,23 +28,18 @@ public:
     /// horizon, and the distance as a multiple of that from the camera to what it looks at.
     void setOrbit(double azimuth, double elevation, double distance);
 
-    /// Handles the key, and the mouse in the second window. Returns: whether the event was handled.
-    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
-    /// The keys, for osgViewer::HelpHandler.
-    void getUsage(osg::ApplicationUsage& usage) const override;
-
 protected:
     ~SpyViewHandler() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+    bool handleOther(const osgGA::GUIEventAdapter& event, osgViewer::View& view) override;
 
 private:
     class Placement;
 
     void open(osgViewer::View& view);
     void close(osgViewer::View& view);
-    void drawFrustum(osgViewer::View& view);
     bool orbit(const osgGA::GUIEventAdapter& event);
 
-    static constexpr int kKey = 'y';
     osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osg::Group> _frustum;
     const osg::ref_ptr<Placement> _placement;

@@ -6,7 +6,7 @@
 #include "CameraView.h"
 #include "Failure.h"
 #include "FrameCapture.h"
-#include "HomeView.h"
+#include "ViewTools.h"
 
 #include <osg/Timer>
 #include <osgDB/DatabasePager>
@@ -67,7 +67,7 @@ void Steps::runOne(const std::string& verb, const std::string& value) {
 void Steps::standAt(const std::string& name) {
     osg::Camera& camera = *_viewer.getCamera();
     if (name == "home") {
-        const HomeView home = homeViewOf(*_viewer.getSceneData());
+        const HomeView home = homeViewOf(*_viewer.getSceneData(), camera.getProjectionMatrix());
         camera.setViewMatrixAsLookAt(home.eye, home.center, home.up);
         return drawUntilIdle();
     }
@@ -125,7 +125,7 @@ void Steps::takePicture(const std::string& fileName, osg::GraphicsContext* windo
     camera.removeFinalDrawCallback(capture);
     const osg::ref_ptr<osg::Image> picture = capture->take();
     if (!picture) throw std::runtime_error("--steps: a picture was never drawn");
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 88");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 86");
     if (!osgDB::writeImageFile(*picture, fileName, options)) {
         throw std::runtime_error("--steps: " + fileName + " cannot be written");
     }

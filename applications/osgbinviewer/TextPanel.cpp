@@ -92,9 +92,11 @@ void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {
     }
     texts->insertChild(0, makeBackground(kMargin, kMargin, widest - kMargin,
                                          kLineHeight * static_cast<float>(lines.size()) + 0.5F * kMargin));
-    const double shift = _corner == Corner::BottomRight ? width - widest - kMargin : 0.0;
     const double height = camera.getViewport() ? camera.getViewport()->height() : 1.0;
-    _hud->setProjectionMatrixAsOrtho(-shift, width - shift, 0.0, height, -1.0, 1.0);
+    const double right = _corner == Corner::BottomLeft ? 0.0 : width - widest - kMargin;
+    const double up =
+        _corner == Corner::TopRight ? height - kLineHeight * static_cast<double>(lines.size()) - 2.5 * kMargin : 0.0;
+    _hud->setProjectionMatrixAsOrtho(-right, width - right, -up, height - up, -1.0, 1.0);
     _hud->removeChildren(0, _hud->getNumChildren());
     _hud->addChild(texts);
     computeBounds(*_hud);

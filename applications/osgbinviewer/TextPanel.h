@@ -22,7 +22,7 @@ public:
 
         [[nodiscard]] bool operator==(const Line& other) const { return text == other.text && colour == other.colour; }
     };
-    enum class Corner { BottomLeft, BottomRight };
+    enum class Corner { BottomLeft, BottomRight, TopRight };
 
     explicit TextPanel(Corner corner);
 

@@ -3,10 +3,6 @@
 
 #include "ViewTools.h"
 
-#include <osgGA/GUIActionAdapter>
-#include <osgGA/GUIEventAdapter>
-#include <osgViewer/View>
-
 #include <algorithm>
 #include <cmath>
 
@@ -29,14 +25,6 @@ public:
 void computeBounds(osg::Node& node) {
     BoundsComputer computer;
     node.accept(computer);
-}
-
-osgViewer::View* viewOf(osgGA::GUIActionAdapter& action) {
-    return dynamic_cast<osgViewer::View*>(action.asView());
-}
-
-bool isTaken(const osgGA::GUIEventAdapter& event) {
-    return event.getHandled() && event.getEventType() != osgGA::GUIEventAdapter::FRAME;
 }
 
 std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye, const osg::Vec3d& direction) {

@@ -12,21 +12,7 @@
 
 #include <optional>
 
-namespace osgGA {
-class GUIActionAdapter;
-class GUIEventAdapter;
-}  // namespace osgGA
-namespace osgViewer {
-class View;
-}
-
 namespace osgAnalyticBin::viewer {
-
-/// The osgViewer view that an event handler was called for. Returns: nullptr for other viewers.
-[[nodiscard]] osgViewer::View* viewOf(osgGA::GUIActionAdapter& action);
-
-/// Whether another handler has handled an event; FRAME events are for all handlers.
-[[nodiscard]] bool isTaken(const osgGA::GUIEventAdapter& event);
 
 /// Where a ray from the eye meets a globe's ellipsoid first. Frame: the world's.
 [[nodiscard]] std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye,
@@ -46,5 +32,16 @@ void computeBounds(osg::Node& node);
 /// `reach`: metres that it is drawn where there is no globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<flight::Globe>& globe,
                                                   double reach);
+
+/// Where a viewer starts: the whole globe with room around it; or, of a database that covers a part of the globe, that
+/// part from the south and above.
+struct HomeView {
+    osg::Vec3d eye;
+    osg::Vec3d center;
+    osg::Vec3d up;
+};
+
+/// `projection`: of a perspective camera, for which the view is as near as it can be.
+[[nodiscard]] HomeView homeViewOf(osg::Node& scene, const osg::Matrixd& projection);
 
 }  // namespace osgAnalyticBin::viewer

@@ -4,7 +4,6 @@
 #include "BinDisplayHandler.h"
 #include "CoveredPictureHandler.h"
 #include "FreezeCullHandler.h"
-#include "HomeView.h"
 #include "MethodSwitchHandler.h"
 #include "ModuleFolder.h"
 #include "PathRecorder.h"
@@ -13,6 +12,7 @@
 #include "SpyViewHandler.h"
 #include "Steps.h"
 #include "TrafficHandler.h"
+#include "ViewTools.h"
 #include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -43,7 +43,7 @@ using support::ExitCode;
 using support::kSucceeded;
 
 // As osgviewer's, but that the one for terrain is the first choice.
-osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& settings, osg::Node& scene) {
+osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& settings, osgViewer::Viewer& viewer) {
     osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> keys = new osgGA::KeySwitchMatrixManipulator;
     keys->addMatrixManipulator('1', "Trackball", new osgGA::TrackballManipulator);
     keys->addMatrixManipulator('2', "Flight", new osgGA::FlightManipulator);
@@ -61,7 +61,7 @@ osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& s
         keys->addMatrixManipulator(key++, "Path", manipulator);
         keys->selectMatrixManipulator(keys->getNumMatrixManipulators() - 1);
     }
-    const viewer::HomeView home = viewer::homeViewOf(scene);
+    const viewer::HomeView home = viewer::homeViewOf(*viewer.getSceneData(), viewer.getCamera()->getProjectionMatrix());
     keys->setHomePosition(home.eye, home.center, home.up);
     return keys;
 }
@@ -171,8 +171,8 @@ ExitCode show(osg::ArgumentParser& arguments) {
     if (settings.traffic > 0) viewer.addEventHandler(new viewer::TrafficHandler(*scene, settings.traffic));
     const osg::ref_ptr<viewer::SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
-    viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));
     realize(viewer);
+    viewer.setCameraManipulator(makeManipulator(settings, viewer));
     return viewer.run() == 0 ? kSucceeded : support::kFailed;
 }
 

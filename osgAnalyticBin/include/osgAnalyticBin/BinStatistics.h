@@ -86,6 +86,12 @@ public:
     /// Sets what terrain covers in the frame with this number.
     void setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept;
 
+    /// The condition that is missing for terrain to hide tiles, in a few words, such as "occlusion=off". Only for the
+    /// visitor's own thread. Returns: null if this frame had a search for tiles behind terrain, or no database.
+    [[nodiscard]] const char* notCovered() const noexcept { return _covered ? nullptr : _notCovered; }
+    /// Sets the condition in the frame with this number; the text has to stay.
+    void setNotCovered(const char* condition, unsigned int frame) noexcept;
+
     /// Sets the counts to zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
@@ -111,6 +117,7 @@ private:
     osg::ref_ptr<osg::Referenced> _traversal;  // what culling keeps with the visitor
     bool _isTileByTile = false;
     std::shared_ptr<const CoveredPicture> _covered;
+    const char* _notCovered = nullptr;
 };
 
 }  // namespace osgAnalyticBin

@@ -56,6 +56,12 @@ Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& al
     return ground;
 }
 
+TerrainHider::Hidden nothingFor(const char* missing) {
+    TerrainHider::Hidden hidden;
+    hidden.missing = missing;
+    return hidden;
+}
+
 std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
     if (!view.region) return std::nullopt;
     return view.region->extents();
@@ -214,28 +220,32 @@ std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& v
 }  // namespace
 
 TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
-    if (!view.nearBound && !std::isfinite(view.nearReach)) return {};
+    constexpr const char* kSteep = "a view that is steeper than 78 degrees nowhere";
+    constexpr const char* kNearPlane = "a near plane that surely cuts no terrain";
+    if (!view.nearBound && !std::isfinite(view.nearReach)) return nothingFor(kNearPlane);
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
-    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};
+    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear)
+        return nothingFor("no culling by the near plane");
+    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return nothingFor("an eye over the database");
     const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
     const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
-    if (!lines) return {};
+    if (!lines) return nothingFor(kSteep);
     if (!_found) _found = std::make_unique<FoundOcclusion>();
     Hidden hidden;
     const Ground ground = describe(view, shown, _found->shown, hidden.withoutPlates);
     hidden.isAwaited = ground == Ground::Awaited;
+    hidden.missing = hidden.isAwaited ? "tiles that are prepared: wait a moment" : "tiles without holes";
     if (ground != Ground::Known) return hidden;
     auto spanThen = PictureSpan::of(*lines, _found->eye);
     std::optional<LeftOut> left = served(*_found, view, *lines, shown, spanThen);
     if (!left) left = servedAhead(view, *lines, shown, spanThen);
     if (!left) {
         FoundPtr next = aimed(*_found, view, *lines, spanThen);
-        if (!next) return {};
+        if (!next) return nothingFor(kSteep);
         left = search(view, *lines, shown, _nearMeshes, next);
         _found = std::move(next);
-        if (!left) return {};
+        if (!left) return nothingFor(kNearPlane);
         _found->uses = 1;
     } else if (!_ahead.valid() && spanThen && isNearlyUsedUp(*_found, view.eye, spanThen->across)) {
         searchAhead(view, *lines, shown, spanThen);

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
+#include <osg/PolygonMode>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/PositionalStateContainer>
 #include <osgUtil/RenderLeaf>
@@ -112,6 +113,9 @@ CameraCulling::CameraCulling() : _overlay(new osg::Group) {
     constexpr GLenum kDepthClamp = 0x864F;
     _overlay->getOrCreateStateSet()->setMode(kDepthClamp, osg::StateAttribute::ON);
     _overlay->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+    // text stays readable where the scene is shown as lines
+    _overlay->getOrCreateStateSet()->setAttribute(new osg::PolygonMode,
+                                                  osg::StateAttribute::ON | osg::StateAttribute::PROTECTED);
 }
 
 CameraCulling::~CameraCulling() = default;

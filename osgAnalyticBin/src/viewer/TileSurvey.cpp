@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
@@ -12,6 +13,7 @@
 #include <osg/Geode>
 #include <osg/Switch>
 #include <osg/Transform>
+#include <osg/View>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
@@ -37,10 +39,22 @@ const AnalyticBinCullCallback* binCallbackOf(const osg::Node& node) {
     return findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
 }
 
+// As osgViewer begins with: that of the view's master, and the camera's own.
+std::vector<osg::StateSet*> statesOf(osg::Camera& camera) {
+    std::vector<osg::StateSet*> states;
+    osg::Camera* const master = camera.getView() ? camera.getView()->getCamera() : nullptr;
+    if (master && master != &camera && master->getStateSet()) states.push_back(master->getStateSet());
+    if (camera.getStateSet()) states.push_back(camera.getStateSet());
+    return states;
+}
+
 class Surveyor : public osgUtil::CullVisitor {
 public:
     Surveyor(const EllipsoidOfTile& known, const osg::Matrixd& view, std::vector<SurveyedTile>& tiles)
-        : _known(known), _eyeToWorld(osg::Matrixd::inverse(view)), _tiles(tiles) {}
+        : _known(known), _eyeToWorld(osg::Matrixd::inverse(view)), _tiles(tiles) {
+        // what terrain hides from the camera is to be hidden here, too
+        setDrawsAsCullVisitor(*this);
+    }
 
     using osgUtil::CullVisitor::apply;
     void apply(osg::Node& node) override { visit(node); }
@@ -158,6 +172,42 @@ private:
 
 }  // namespace
 
+const char* verdictName(TileVerdict verdict) {
+    switch (verdict) {
+        case TileVerdict::Outside:
+            return "outside";
+        case TileVerdict::Straddling:
+            return "straddling";
+        case TileVerdict::Inside:
+            return "inside";
+        case TileVerdict::Hidden:
+            return "behind the horizon";
+        case TileVerdict::BeyondEdge:
+            return "beyond an edge";
+        case TileVerdict::Occluded:
+            return "behind terrain";
+    }
+    return "";
+}
+
+osg::Vec4 verdictColour(TileVerdict verdict) {
+    switch (verdict) {
+        case TileVerdict::Outside:
+            return {0.95F, 0.08F, 0.3F, 1.0F};
+        case TileVerdict::Straddling:
+            return {1.0F, 1.0F, 0.05F, 1.0F};
+        case TileVerdict::Inside:
+            return {0.05F, 0.95F, 0.0F, 1.0F};
+        case TileVerdict::Hidden:
+            return {0.4F, 0.38F, 1.0F, 1.0F};
+        case TileVerdict::BeyondEdge:
+            return {0.0F, 1.0F, 0.9F, 1.0F};
+        case TileVerdict::Occluded:
+            return {0.95F, 0.5F, 0.0F, 1.0F};
+    }
+    return {1.0F, 1.0F, 1.0F, 1.0F};
+}
+
 TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     const CullingView view = CameraCulling::cullingView(camera);
     const EllipsoidOfTile known = tilesBelow(camera);
@@ -178,8 +228,13 @@ TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     surveyor->pushViewport(view.viewport);
     surveyor->pushProjectionMatrix(new osg::RefMatrix(view.projection));
     surveyor->pushModelViewMatrix(new osg::RefMatrix(view.view), osg::Transform::ABSOLUTE_RF);
+    // what can be seen through wireframe is not hidden
+    const std::vector<osg::StateSet*> states = statesOf(camera);
+    for (osg::StateSet* const state : states) surveyor->pushStateSet(state);
     surveyor->traverse(camera);
+    for (std::size_t i = 0; i < states.size(); ++i) surveyor->popStateSet();
     _covered = BinStatistics::of(*surveyor).covered();
+    _notCovered = BinStatistics::of(*surveyor).notCovered();
     surveyor->popModelViewMatrix();
     surveyor->popProjectionMatrix();
     surveyor->popViewport();

@@ -277,7 +277,7 @@ FAULTS = [
     Fault("region: single tiles look past the border", "src/kit/cull/AnalyticBinCullCallback.cpp",
           "view->sight->holds(*prepared().horizon));", "true);", NODE, "RegionalHorizon.*"),
     Fault("region: terrain hides from beside", "src/occlusion/TerrainOcclusion.cpp",
-          "if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};", "", NODE, "RegionalTerrain.*"),
+          "view.region && !view.region->holdsSegmentsFrom(view.eye)", "false", NODE, "RegionalTerrain.*"),
     Fault("region: a missing tile leaves a region", "src/kit/install/Coverage.cpp",
           "return areaOf(place) - areaOf(within) <= kRounding * areaOf(place);",
           "return areaOf(place) - areaOf(within) <= (1.0 + kRounding) * areaOf(place);", NODE, "Evidence.*:Regional*"),

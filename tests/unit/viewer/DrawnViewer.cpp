@@ -7,6 +7,7 @@
 
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
+#include <osgText/Text>
 
 #include <support/SyntheticDatabase.h>
 
@@ -75,6 +76,33 @@ void DrawnViewer::press(int key) {
 
 TileCounts DrawnViewer::counts(osgViewer::Viewer& viewer) {
     return TileSurvey(*viewer.getCamera(), *viewer.getFrameStamp()).counts();
+}
+
+osg::ref_ptr<osg::Image> DrawnViewer::picture(osgViewer::Viewer& viewer) {
+    struct Reader : osg::Camera::DrawCallback {
+        void operator()(osg::RenderInfo&) const override {
+            image->readPixels(0, 0, kSurfaceSize, kSurfaceSize, GL_RGB, GL_UNSIGNED_BYTE);
+        }
+        osg::ref_ptr<osg::Image> image = new osg::Image;
+    };
+    const osg::ref_ptr<Reader> reader = new Reader;
+    viewer.getCamera()->setFinalDrawCallback(reader);
+    viewer.frame();
+    viewer.getCamera()->setFinalDrawCallback(nullptr);
+    return reader->image;
+}
+
+std::vector<std::string> DrawnViewer::texts(osg::Node& node) {
+    struct Reader : osg::NodeVisitor {
+        Reader() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+        void apply(osg::Drawable& drawable) override {
+            if (const auto* const text = dynamic_cast<const osgText::Text*>(&drawable))
+                found.push_back(text->getText().createUTF8EncodedString());
+        }
+        std::vector<std::string> found;
+    } reader;
+    node.accept(reader);
+    return reader.found;
 }
 
 }  // namespace osgAnalyticBin::test

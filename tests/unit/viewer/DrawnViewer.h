@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 #include <osg/GraphicsContext>
+#include <osg/Image>
 #include <osgViewer/Viewer>
 
 #include <string>
 #include <support/TemporaryFolder.h>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -41,6 +43,12 @@ protected:
     void press(int key);
 
     [[nodiscard]] static TileCounts counts(osgViewer::Viewer& viewer);
+
+    /// Of the next frame.
+    [[nodiscard]] static osg::ref_ptr<osg::Image> picture(osgViewer::Viewer& viewer);
+
+    /// What can be read below a node, in the order of its drawables.
+    [[nodiscard]] static std::vector<std::string> texts(osg::Node& node);
 
     TemporaryFolder _folder;
     std::string _file;

@@ -11,6 +11,8 @@
 
 #include <osgViewer/ViewerEventHandlers>
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
 namespace {
 
@@ -45,10 +47,16 @@ TEST_F(Statistics, FillOsgsOwn) {
     EXPECT_EQ(attribute("Tiles tested"), double(expected.tested));
     EXPECT_EQ(attribute("Tiles kept"), double(expected.kept));
     EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
-    EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
+    EXPECT_EQ(attribute("Tiles behind the horizon"), double(expected.hidden));
     EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.beyondEdge));
     EXPECT_EQ(attribute("Tiles behind terrain"), double(expected.occluded));
     EXPECT_GT(expected.drawn, 0u);
+    // whole numbers, and no means
+    press('s');
+    const std::vector<std::string> shown = texts(*handler->getCamera());
+    const auto name = std::find(shown.begin(), shown.end(), "Tiles drawn: ");
+    ASSERT_LT(name + 1, shown.end());
+    EXPECT_EQ(name[1], std::to_string(expected.drawn));
 }
 
 TEST_F(Statistics, CountWhatBinsDecidedOverAllCameras) {

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>
+#include <osg/PolygonMode>
 #include <osgDB/Callbacks>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
@@ -65,6 +66,15 @@ TEST(TileSurvey, TellsVerdictsThatAreKnown) {
     }
     EXPECT_EQ(tileAt(low, 20, 70)->verdict, TileVerdict::Outside);
     EXPECT_EQ(low.counts().kept, 4u);
+}
+
+TEST(TileSurvey, SeesThroughWireframeAsTheCameraDoes) {
+    ViewerScene scene(with(Method::Quadratic));
+    scene.lookFrom(22.5, 22.5, 12e6, 0.0, 60.0);
+    EXPECT_GT(TileSurvey(scene.camera(), scene.frameStamp()).counts().hidden, 0u);
+    scene.camera().getOrCreateStateSet()->setAttribute(
+        new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    EXPECT_EQ(TileSurvey(scene.camera(), scene.frameStamp()).counts().hidden, 0u);
 }
 
 TEST(TileSurvey, CountsWhatATraversalThatIsNotWatchedDraws) {

@@ -80,7 +80,8 @@ public:
     /// Whether another camera is followed.
     [[nodiscard]] bool isFollowing() const { return _followed.valid(); }
 
-    /// What the camera draws on top of its scene, in the world's frame.
+    /// What the camera draws on top of its scene, in the world's frame; it is filled where the scene is shown as
+    /// lines.
     [[nodiscard]] osg::Group& overlay() { return *_overlay; }
 
     /// One cull traversal of the camera.

@@ -12,6 +12,7 @@
 #include <osg/FrameStamp>
 #include <osg/Matrixd>
 #include <osg/Node>
+#include <osg/Vec4>
 
 #include <cstddef>
 #include <memory>
@@ -28,6 +29,13 @@ enum class TileVerdict {
     BeyondEdge,  ///< beyond an edge of the frustum, though outside no single plane
     Occluded     ///< behind terrain
 };
+
+/// What statistics and legends call a verdict: "outside", "straddling", "inside", "behind the horizon", "beyond an
+/// edge", "behind terrain".
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT const char* verdictName(TileVerdict verdict);
+
+/// The colour that a verdict is shown in, opaque. Over terrain, at six tenths, no colour looks like another of them.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Vec4 verdictColour(TileVerdict verdict);
 
 /// A tile that a camera's cull traversal reached.
 struct SurveyedTile {
@@ -70,12 +78,16 @@ public:
     /// The part of the picture that terrain covers. Returns: nullptr when there was no search for tiles behind terrain.
     [[nodiscard]] const CoveredPicture* covered() const { return _covered.get(); }
 
+    /// Why there was none: see BinStatistics::notCovered().
+    [[nodiscard]] const char* notCovered() const { return _notCovered; }
+
     /// Sums of tiles().
     [[nodiscard]] TileCounts counts() const;
 
 private:
     std::vector<SurveyedTile> _tiles;
     std::shared_ptr<const CoveredPicture> _covered;
+    const char* _notCovered = nullptr;
 };
 
 }  // namespace osgAnalyticBin

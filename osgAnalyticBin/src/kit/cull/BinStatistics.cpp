@@ -92,6 +92,11 @@ void BinStatistics::setCovered(std::shared_ptr<const CoveredPicture> covered, un
     _covered = std::move(covered);
 }
 
+void BinStatistics::setNotCovered(const char* condition, unsigned int frame) noexcept {
+    beginFrame(frame);
+    _notCovered = condition;
+}
+
 void BinStatistics::reset() noexcept {
     _occluded.store(0, std::memory_order_relaxed);
     _hidden.store(0, std::memory_order_relaxed);
@@ -100,6 +105,7 @@ void BinStatistics::reset() noexcept {
     _inside.store(0, std::memory_order_relaxed);
     _straddling.store(0, std::memory_order_relaxed);
     _covered = nullptr;
+    _notCovered = nullptr;
 }
 
 BinCounts BinStatistics::getCounts() const noexcept {

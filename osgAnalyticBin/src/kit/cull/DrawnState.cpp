@@ -102,6 +102,11 @@ DrawnState ofFrontFace(const osg::FrontFace& face, const StateRules& rules) {
     return isClockwise == rules.isClockwise ? kHarmless : kHidesNothing;
 }
 
+// Frozen cameras and those that follow others have viewports of the same extent.
+DrawnState ofViewport(const osg::Viewport& viewport, const StateRules& rules) {
+    return rules.viewport && viewport.compare(*rules.viewport) == 0 ? kHarmless : kUnknown;
+}
+
 // Of an attribute whose type is that of the class, if it is of no class derived from it.
 template <class Class, class Of, class... Rules>
 DrawnState ofExactly(const Attribute& attribute, const Of& of, const Rules&... rules) {
@@ -124,7 +129,7 @@ DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
         case Attribute::PROGRAM:
             return ofExactly<osg::Program>(attribute, ofProgram, rules);
         case Attribute::VIEWPORT:
-            return &attribute == rules.viewport ? kHarmless : kUnknown;
+            return ofExactly<osg::Viewport>(attribute, ofViewport, rules);
         default:
             break;
     }

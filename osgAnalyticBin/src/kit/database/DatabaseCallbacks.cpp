@@ -100,18 +100,32 @@ bool isAboveTerrain(const CullOptions& options) {
     return options.skirts == SkirtUse::Cracks;
 }
 
-// Whether something in this view may hide tiles, by what is known of the database as a whole.
-bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& options) {
+constexpr const char* kOcclusionOn = "occlusion=on or occlusion=auto";
+constexpr const char* kNoGaps = "meshes that cover the globe or a rectangle without gaps";
+constexpr const char* kPerspective = "a perspective camera with a depth buffer of 24 bits";
+constexpr const char* kEyeOver = "an eye over the database";
+constexpr const char* kPlanes = "near and far planes that OSG computes by bounding volumes, or that are set";
+constexpr const char* kWhole = "near and far planes that are set, or a tile that is in view as a whole";
+constexpr const char* kDepths =
+    "near and far planes that are set, or nothing but plain nodes and the tiles in the scene";
+
+// Why nothing in this view hides tiles, by what is known of the database as a whole: the condition that is missing.
+// Returns: nullptr where something may.
+const char* missingToHide(const ShownDatabase& shown, Database& database, const CullOptions& options) {
     const DatabaseView& view = shown.selected.view;
     // in a map nothing else is looked for
-    if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return false;
-    const bool isUsed = isDepthGiven(view, options) || (options.horizonUse != HorizonUse::Off &&
-                                                        isAboveTerrain(options) && !database.has(Finding::Gap));
+    if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return kOcclusionOn;
+    if (!isDepthGiven(view, options)) {
+        if (options.horizonUse == HorizonUse::Off) return "options without horizon=off";
+        if (!isAboveTerrain(options)) return "options without skirts=all";
+        if (database.has(Finding::Gap)) return kNoGaps;
+    }
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isRelyingOnStrays = (database.has(Finding::Gap) || shown.region) && database.has(Finding::StrayTile);
+    if (isRelyingOnStrays) return "tiles that stand in one place each";
     osg::NodeVisitor& visitor = shown.selected.visitor;
-    return isUsed && !isRelyingOnStrays && !isAltered(visitor.getNodePath()) &&
-           drawnStateAbove(visitor, view.rules).hides;
+    if (isAltered(visitor.getNodePath())) return "no cull callbacks at the root of the database and above";
+    return drawnStateAbove(visitor, view.rules).hides ? nullptr : "filled and opaque terrain, and declared shaders";
 }
 
 // `unknown`: of unknown depth; null: the camera's settings are the reason.
@@ -136,6 +150,7 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Datab
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
         if (unknown) reportUnknownNearPlane(database, unknown);
         if (!computed || !(computed->least() > 0.0)) {
+            BinStatistics::of(visitor).setNotCovered(computed ? kWhole : kDepths, visitor.getTraversalNumber());
             noteHidden({}, last);
             return nullptr;
         }
@@ -150,7 +165,9 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Datab
         Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
     }
     for (const std::size_t i : hidden.tiles) selection.addOccluded(selection.shown()[i]);
-    if (hidden.covered) BinStatistics::of(visitor).setCovered(hidden.covered, visitor.getTraversalNumber());
+    BinStatistics& statistics = BinStatistics::of(visitor);
+    if (hidden.covered) statistics.setCovered(hidden.covered, visitor.getTraversalNumber());
+    if (!hidden.covered) statistics.setNotCovered(hidden.missing, visitor.getTraversalNumber());
     noteHidden(hidden, last);
     return hidden.covered ? last.hider : nullptr;
 }
@@ -214,9 +231,13 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const auto& [visitor, cullStack, view] = shown.selected;
     const auto region = database.region();
     if (region) shown.region = &*region;
-    if (!mayHide(shown, database, options)) return {};
+    const auto miss = [&visitor = visitor](const char* condition) {
+        if (condition) BinStatistics::of(visitor).setNotCovered(condition, visitor.getTraversalNumber());
+        return condition != nullptr;
+    };
+    if (miss(missingToHide(shown, database, options))) return {};
     const auto viewpoint = Viewpoint::of(cullStack, visitor, options.inheritViewpoint);
-    if (!viewpoint) return {};
+    if (miss(viewpoint ? nullptr : kPerspective)) return {};
     const bool isMap = view.ellipsoid.isPlane();
     const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
@@ -234,17 +255,23 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     };
     if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
         shown.region = nullptr;
+        miss(isAboveTerrain(options) ? kNoGaps : "options without skirts=all");
         const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
         return note({eye, {}, eye.has_value(), {}, {}});
     }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.report(Finding::EyeBesideRegion);
+        miss(kEyeOver);
         return {};
     }
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
     const bool isNearPlaneBounded = isFinalProjection(cullStack) || ComputedNear::isPossible(visitor, cullStack);
     if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneBounded)
         reportUnknownNearPlane(database, nullptr);
+    miss(options.occlusion == OcclusionUse::Off ? kOcclusionOn
+         : !viewpoint->eye()                    ? kPerspective
+         : !isNearPlaneBounded                  ? kPlanes
+                                                : nullptr);
     const bool findsOccluded = mayFindOccluded && isNearPlaneBounded && isOcclusionDue(options.occlusion, last);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
@@ -256,7 +283,10 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     osg::ref_ptr<TerrainHider> hider;
     if (isSelected && findsOccluded) hider = selectBehindTerrain(shown, database, *viewpoint, last);
     // a hole leaves nothing to pay for
-    if (!isSelected && findsOccluded) noteHidden({}, last);
+    if (!isSelected && findsOccluded) {
+        noteHidden({}, last);
+        miss("an eye above the ground, and tiles in view without holes and callbacks");
+    }
     // a map in which occlusion rests was not searched
     return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected, {}, hider});
 }

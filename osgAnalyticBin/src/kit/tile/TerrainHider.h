@@ -71,6 +71,7 @@ public:
         bool isAwaited = false;  ///< no result yet, because tiles have no plates yet
         std::vector<std::size_t> withoutPlates;
         std::shared_ptr<const CoveredPicture> covered;  ///< null: there was no search
+        const char* missing = nullptr;                  ///< the condition for a search; stays
     };
 
     /// Requires: all tiles that are shown, without holes, and an eye above the ground (eyeAboveWhatIsShown()).

@@ -14,31 +14,30 @@
 #include "PathRecorder.h"
 #include "SpyViewHandler.h"
 #include "TrafficHandler.h"
+#include "ViewTools.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/PolygonMode>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TerrainManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
-#include <set>
 #include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::viewer {
 namespace {
-
-class Picture : public osg::Camera::DrawCallback {
-public:
-    void operator()(osg::RenderInfo&) const override {
-        image->readPixels(0, 0, test::kSurfaceSize, test::kSurfaceSize, GL_RGB, GL_UNSIGNED_BYTE);
-    }
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-};
 
 class Handlers : public test::DrawnViewer {
 protected:
@@ -57,14 +56,6 @@ protected:
     }
 
     void showOverlay(bool shown) { CameraCulling::of(*_viewer.getCamera()).overlay().setNodeMask(shown ? ~0U : 0U); }
-
-    static osg::ref_ptr<osg::Image> picture(osgViewer::Viewer& viewer) {
-        const osg::ref_ptr<Picture> reader = new Picture;
-        viewer.getCamera()->setFinalDrawCallback(reader);
-        viewer.frame();
-        viewer.getCamera()->setFinalDrawCallback(nullptr);
-        return reader->image;
-    }
 
     static std::size_t differingBytes(const osg::Image& a, const osg::Image& b) {
         std::size_t count = 0;
@@ -165,6 +156,9 @@ TEST_F(Handlers, FreezeWhatIsDrawn) {
     const std::size_t drawn = counts(_viewer).drawn;
     press('F');
     EXPECT_TRUE(_freeze->isFrozen());
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
+    const BinCounts counted = binCounts(*_viewer.getCamera(), frame);
+    EXPECT_EQ(counted.tested - counted.outside, counts(_viewer).kept) << "the survey is not what is drawn";
     ASSERT_TRUE(CameraCulling::find(*_viewer.getCamera()));
     EXPECT_EQ(CameraCulling::find(*_viewer.getCamera())->overlay().getNumChildren(), 1u);
     look(_viewer, -1.0);
@@ -184,6 +178,12 @@ TEST_F(Handlers, ShowASlabForEachBinThatTheTraversalEndsAt) {
     const auto ends = std::count_if(survey.tiles().begin(), survey.tiles().end(),
                                     [](const SurveyedTile& tile) { return tile.isCulled || tile.isDrawn; });
     EXPECT_EQ(_bins->slabs().getNumChildren(), static_cast<unsigned int>(ends));
+    const TileCounts counted = survey.counts();
+    const std::vector<std::string> legend = texts(CameraCulling::of(*_viewer.getCamera()).overlay());
+    ASSERT_EQ(legend.size(), 7u);
+    EXPECT_EQ(legend[0], std::to_string(counted.tested) + " tiles tested, " + std::to_string(counted.kept) + " kept, " +
+                             std::to_string(counted.drawn) + " drawn");
+    EXPECT_EQ(legend[4], std::to_string(counted.hidden) + " behind the horizon");
     press('B');
     EXPECT_EQ(_bins->slabs().getNumChildren(), survey.tiles().size());
     press('Q');
@@ -202,9 +202,70 @@ TEST_F(Handlers, ShowACurtainWhereTerrainHidesTiles) {
     EXPECT_FALSE(isInOverlay());
     press('O');
     EXPECT_TRUE(isInOverlay());
-    EXPECT_EQ(covered->curtain().getNumChildren(), 0u);  // a camera that looks down
+    EXPECT_EQ(covered->curtain().getNumChildren(), 0u);
     press('O');
     EXPECT_FALSE(isInOverlay());
+}
+
+// In one line.
+TEST_F(Handlers, SayWhatIsMissingForTerrainToHideTiles) {
+    _viewer.addEventHandler(new CoveredPictureHandler);
+    osg::Camera& camera = *_viewer.getCamera();
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(_viewer.getSceneData());
+    _viewer.setSceneData(scene);
+    press('O');
+    const auto expectNeed = [&](const std::string& need) {
+        drawUntilIdle(_viewer);
+        const std::vector<std::string> lines = texts(CameraCulling::of(camera).overlay());
+        ASSERT_EQ(lines.size(), need.empty() ? 0u : 1u) << need;
+        if (!need.empty()) {
+            EXPECT_EQ(lines.front(), "terrain hides nothing; it needs " + need);
+        }
+    };
+    camera.setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES);
+    expectNeed("near and far planes that OSG computes by bounding volumes, or that are set");
+    // what osgbinviewer begins with
+    camera.setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+    expectNeed("near and far planes that are set, or a tile that is in view as a whole");
+    struct Unknown : osg::NodeCallback {};
+    const osg::ref_ptr<osg::Node> unknown = new osg::Group;
+    unknown->addCullCallback(new Unknown);
+    scene->addChild(unknown);
+    expectNeed("near and far planes that are set, or nothing but plain nodes and the tiles in the scene");
+    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    const osg::ref_ptr<osg::PolygonMode> asLines =
+        new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE);
+    camera.getOrCreateStateSet()->setAttribute(asLines);
+    expectNeed("filled and opaque terrain, and declared shaders");
+    camera.getStateSet()->removeAttribute(asLines);
+    camera.setViewMatrixAsLookAt(osg::Vec3d(7e6, 0.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0));
+    expectNeed("a view that is steeper than 78 degrees nowhere");
+    CullOptions options;
+    options.occlusion = OcclusionUse::Off;
+    setCullOptions(*scene->getChild(0), options);
+    expectNeed("occlusion=on or occlusion=auto");
+    options.horizonUse = HorizonUse::Off;
+    setCullOptions(*scene->getChild(0), options);
+    expectNeed("options without horizon=off");
+    options.method = Method::Sphere;
+    setCullOptions(*scene->getChild(0), options);
+    expectNeed("culling by bins (key n)");
+}
+
+// Past the globe, so that the scene has no lines of its own.
+TEST_F(Handlers, KeepTextFilledWhereTheSceneIsShownAsLines) {
+    osg::Camera& camera = *_viewer.getCamera();
+    _viewer.addEventHandler(new osgGA::StateSetManipulator(camera.getOrCreateStateSet()));
+    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+    camera.setViewMatrixAsLookAt(eye, eye * 2.0, osg::Vec3d(0.0, 0.0, 1.0));
+    drawUntilIdle(_viewer);
+    const auto before = picture(_viewer);
+    press('B');
+    const auto filled = picture(_viewer);
+    EXPECT_GT(differingBytes(*before, *filled), 500u);
+    press('w');
+    EXPECT_EQ(differingBytes(*filled, *picture(_viewer)), 0u);
 }
 
 TEST_F(Handlers, DoNotChangeThePictureOnceTheyAreSwitchedOff) {
@@ -223,6 +284,8 @@ TEST_F(Handlers, OpenASecondWindowThatIsCulledAsTheFirst) {
     ASSERT_TRUE(_spy->isOpen());
     const TileSurvey spied(*_spy->camera(), *_viewer.getFrameStamp());
     EXPECT_EQ(spied.counts().drawn, drawn);
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
+    EXPECT_EQ(binCounts(*_spy->camera(), frame).outside, binCounts(*_viewer.getCamera(), frame).outside);
     EXPECT_NE(_spy->camera()->getViewMatrix(), _viewer.getCamera()->getViewMatrix());
     press('y');
     EXPECT_FALSE(_spy->isOpen());
@@ -363,16 +426,71 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
                                   new PathRecorder("none.csv")});
     EXPECT_EQ(ours.size(), 8u);
     EXPECT_GT(osgs.size(), 14u);
-    for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key), 0u) << key << ": " << text;
+    for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key.substr(1)), 0u) << key << ": " << text;
+    EXPECT_LT(ours.rbegin()->first, osgs.begin()->first) << "first in the help";
 }
 
-TEST(VerdictColours, AreAllDifferent) {
-    std::set<osg::Vec4> colours;
-    for (const TileVerdict verdict : {TileVerdict::Outside, TileVerdict::Straddling, TileVerdict::Inside,
-                                      TileVerdict::Hidden, TileVerdict::BeyondEdge}) {
-        colours.insert(verdictColour(verdict));
+// CIE L*a*b*, with half the weight for lightness, which light and shadow change.
+osg::Vec3d seen(const osg::Vec4d& colour) {
+    const auto linear = [&](unsigned int i) {
+        return colour[i] <= 0.04045 ? colour[i] / 12.92 : std::pow((colour[i] + 0.055) / 1.055, 2.4);
+    };
+    const auto f = [&](double red, double green, double blue) {
+        const double t = red * linear(0) + green * linear(1) + blue * linear(2);
+        return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0;
+    };
+    const double x = f(0.4339, 0.3762, 0.1899), y = f(0.2126, 0.7152, 0.0722), z = f(0.0177, 0.1095, 0.8728);
+    return {0.5 * 116.0 * y, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+TEST(VerdictColours, LookLikeNoOtherOverTerrainOfAnyColour) {
+    constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Outside,    TileVerdict::Straddling,
+                                                   TileVerdict::Inside,     TileVerdict::Hidden,
+                                                   TileVerdict::BeyondEdge, TileVerdict::Occluded};
+    // deep and shallow sea, lowland, desert, mountains, snow, night, forest, and the window's background
+    for (const osg::Vec4d& ground : {osg::Vec4d(0.08, 0.2, 0.45, 1.0),
+                                     {0.5, 0.8, 1.0, 1.0},
+                                     {0.4, 0.6, 0.25, 1.0},
+                                     {0.75, 0.65, 0.4, 1.0},
+                                     {0.6, 0.4, 0.25, 1.0},
+                                     {1.0, 1.0, 1.0, 1.0},
+                                     {0.1, 0.1, 0.1, 1.0},
+                                     {0.25, 0.4, 0.2, 1.0},
+                                     {0.2, 0.2, 0.4, 1.0}}) {
+        for (const TileVerdict verdict : kVerdicts) {
+            const double share = BinDisplayHandler::kOpacity;
+            const osg::Vec3d shown = seen(osg::Vec4d(verdictColour(verdict)) * share + ground * (1.0 - share));
+            const auto distance = [&](TileVerdict other) {
+                return (shown - seen(osg::Vec4d(verdictColour(other)))).length();
+            };
+            for (const TileVerdict other : kVerdicts) {
+                if (other == verdict) continue;
+                EXPECT_LT(distance(verdict), distance(other))
+                    << verdictName(verdict) << " looks like " << verdictName(other) << " over " << ground.r();
+            }
+        }
     }
-    EXPECT_EQ(colours.size(), 5u);
+}
+
+TEST(HomeView, HoldsTheWholeGlobeWithRoomInWindowsOfAnyShape) {
+    test::ViewerScene scene;
+    const osg::EllipsoidModel ellipsoid;
+    for (const double aspect : {2.4, 1.0, 0.5}) {
+        const osg::Matrixd projection = osg::Matrixd::perspective(29.15, aspect, 1.0, 1e8);
+        const HomeView home = homeViewOf(scene.database(), projection);
+        const osg::Matrixd toPicture = osg::Matrixd::lookAt(home.eye, home.center, home.up) * projection;
+        double farthest = 0.0;
+        for (double latitude = -1.5; latitude < 1.6; latitude += 0.1) {
+            for (double longitude = 0.0; longitude < 6.3; longitude += 0.1) {
+                osg::Vec3d point;
+                ellipsoid.convertLatLongHeightToXYZ(latitude, longitude, 0.0, point.x(), point.y(), point.z());
+                const osg::Vec3d at = point * toPicture;
+                farthest = std::max({farthest, std::abs(at.x()), std::abs(at.y())});
+            }
+        }
+        EXPECT_LT(farthest, 0.92) << aspect;
+        EXPECT_GT(farthest, 0.7) << aspect;
+    }
 }
 
 }  // namespace

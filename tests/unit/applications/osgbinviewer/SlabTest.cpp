@@ -4,6 +4,8 @@
 //
 // Slabs as they are drawn. Oracle: the mapping's inverse, point by point.
 
+#include "DrawnViewer.h"
+#include "IndexedGeometry.h"
 #include "Slab.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
@@ -12,8 +14,11 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
+#include <osg/Depth>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace osgAnalyticBin::viewer {
 namespace {
@@ -32,7 +37,7 @@ const core::GeodeticBin kBins[] = {binDeg({10, 11}, {20, 21}, {-500, 4000}),
 
 class Slab : public ::testing::TestWithParam<core::GeodeticBin> {};
 
-TEST_P(Slab, HasItsVerticesOnTheBinsSurface) {
+TEST_P(Slab, HasItsVerticesOnTheBinsSurfaceOrAboveItsTop) {
     const core::GeodeticBin& bin = GetParam();
     const SlabMesh mesh = slabMesh(bin, kEarth, SlabShape::Bin);
     const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
@@ -45,12 +50,12 @@ TEST_P(Slab, HasItsVerticesOnTheBinsSurface) {
         ASSERT_TRUE(lat.lower - metre < at.latitude && at.latitude < lat.upper + metre);
         // OSG divides by the cosine of the latitude
         if (std::hypot(ecef.x(), ecef.y()) < 1e4) at.altitude = std::abs(ecef.z()) - kEarth.polarRadius();
-        ASSERT_TRUE(bin.altitude().lower - 10.0 < at.altitude && at.altitude < bin.altitude().upper + 10.0)
+        ASSERT_TRUE(bin.altitude().lower - 10.0 < at.altitude && at.altitude < bin.altitude().upper + kSag)
             << at.altitude;
     }
 }
 
-TEST_P(Slab, HoldsTheBinButForTheSagOfItsChords) {
+TEST_P(Slab, HoldsTheBinButForTheSagOfItsSides) {
     const core::GeodeticBin& bin = GetParam();
     const SlabMesh mesh = slabMesh(bin, kEarth, SlabShape::Bin);
     const core::ExactGeodeticBin exact(kEarth, bin);
@@ -64,8 +69,32 @@ TEST_P(Slab, HoldsTheBinButForTheSagOfItsChords) {
             const osg::Vec3d ecef = osg::Vec3d(vertex) + mesh.origin;
             farthest = std::max(farthest, ecef.x() * direction.x + ecef.y() * direction.y + ecef.z() * direction.z);
         }
-        EXPECT_LE(farthest, exact.support(direction) + 2.0);
+        EXPECT_LE(farthest, exact.support(direction) + kSag);
         EXPECT_GE(farthest, exact.support(direction) - kSag);
+    }
+}
+
+TEST_P(Slab, HasItsTopOutsideTheBin) {
+    const core::GeodeticBin& bin = GetParam();
+    const SlabMesh mesh = slabMesh(bin, kEarth, SlabShape::Bin);
+    const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
+    const auto altitudeOf = [&](const osg::Vec3d& fromOrigin) {
+        const osg::Vec3d ecef = fromOrigin + mesh.origin;
+        core::Geodetic at{};
+        ellipsoid.convertXYZToLatLongHeight(ecef.x(), ecef.y(), ecef.z(), at.latitude, at.longitude, at.altitude);
+        return at.altitude;
+    };
+    const double top = bin.altitude().upper;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const osg::Vec3d a = mesh.vertices[mesh.triangles[i]];
+        const osg::Vec3d b = mesh.vertices[mesh.triangles[i + 1]];
+        const osg::Vec3d c = mesh.vertices[mesh.triangles[i + 2]];
+        const double lowest = std::min({altitudeOf(a), altitudeOf(b), altitudeOf(c)});
+        // OSG's altitudes near the poles: see above
+        const bool isTop = lowest >= top - 1.0 && std::hypot(a.x() + mesh.origin.x(), a.y() + mesh.origin.y()) > 1e5;
+        if (isTop) {
+            ASSERT_GE(altitudeOf((a + b + c) / 3.0), top - 1.0) << i;
+        }
     }
 }
 
@@ -121,6 +150,106 @@ TEST(QuadraticSlab, LeavesTheBinByNoMoreThanTheRemainder) {
     }
     EXPECT_LE(largest, quadratic.remainder() + 2.0);
     EXPECT_GT(largest, 0.1 * quadratic.remainder());
+}
+
+class SlabPicture : public test::DrawnViewer {
+protected:
+    void SetUp() override {
+        DrawnViewer::SetUp();
+        if (IsSkipped()) return;
+        _viewer.setLightingMode(osg::View::NO_LIGHT);
+        _viewer.getCamera()->setClearColor(osg::Vec4(0.0F, 0.0F, 0.0F, 1.0F));
+    }
+
+    // Straight down, or with `away`, so far to the south of what is looked at, metres.
+    void lookAt(double latitudeDeg, double longitudeDeg, double altitude, double away) {
+        const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
+        osg::Matrixd toWorld;
+        ellipsoid.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(latitudeDeg),
+                                                                osg::DegreesToRadians(longitudeDeg), 0.0, toWorld);
+        const osg::Vec3d eye = osg::Vec3d(0.0, -away, altitude) * toWorld;
+        const osg::Vec3d north = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), toWorld);
+        _viewer.getCamera()->setViewMatrixAsLookAt(eye, toWorld.getTrans(), north);
+        const double farthest = 3.0 * (altitude + away);
+        _viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 5e-4 * farthest, farthest);
+    }
+
+    [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(const std::vector<osg::ref_ptr<osg::Node>>& nodes) {
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        constexpr GLenum kDepthClamp = 0x864F;
+        scene->getOrCreateStateSet()->setMode(kDepthClamp, osg::StateAttribute::ON);
+        for (const auto& node : nodes) scene->addChild(node);
+        _viewer.setSceneData(scene);
+        return picture(_viewer);
+    }
+
+    static std::size_t bluePixels(const osg::Image& image) {
+        std::size_t count = 0;
+        for (unsigned int i = 0; i < image.getTotalSizeInBytes(); i += 3)
+            count += image.data()[i + 2] > image.data()[i] ? 1U : 0U;
+        return count;
+    }
+};
+
+// Flat, with posts at other places than the slab's.
+osg::ref_ptr<osg::Node> makeSea(const core::GeodeticBin& bin) {
+    constexpr unsigned int kPosts = 65;
+    const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
+    const auto at = [](const core::Interval& range, unsigned int i) {
+        return range.lower + range.width() * i / (kPosts - 1);
+    };
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    std::vector<unsigned int> triangles;
+    osg::Vec3d origin;
+    ellipsoid.convertLatLongHeightToXYZ(bin.latitude().middle(), bin.longitude().middle(), 0.0, origin.x(), origin.y(),
+                                        origin.z());
+    for (unsigned int i = 0; i < kPosts * kPosts; ++i) {
+        osg::Vec3d post;
+        ellipsoid.convertLatLongHeightToXYZ(at(bin.latitude(), i / kPosts), at(bin.longitude(), i % kPosts), 0.0,
+                                            post.x(), post.y(), post.z());
+        vertices->push_back(post - origin);
+        if (i / kPosts == kPosts - 1 || i % kPosts == kPosts - 1) continue;
+        triangles.insert(triangles.end(), {i, i + 1, i + kPosts + 1, i, i + kPosts + 1, i + kPosts});
+    }
+    const auto sea = makeIndexed(*vertices, GL_TRIANGLES, triangles, osg::Vec4(0.0F, 0.0F, 1.0F, 1.0F), 0);
+    sea->getStateSet()->setAttributeAndModes(new osg::Depth);
+    return placed(osg::Matrixd::translate(origin), {sea});
+}
+
+TEST_F(SlabPicture, LiesOnFlatTerrainFromFarAndNear) {
+    const core::GeodeticBin bin = binDeg({22.5, 45.0}, {0.0, 22.5}, {0.0, 0.0});
+    const osg::Vec4 red(1.0F, 0.0F, 0.0F, 1.0F);
+    const osg::ref_ptr<osg::Node> slab = makeSlab(slabMesh(bin, kEarth, SlabShape::Bin), red, red, 21);
+    const osg::ref_ptr<osg::Node> sea = makeSea(bin);
+    for (const auto& [altitude, away] : {std::pair(1e7, 0.0), {5e5, 1e6}, {5e4, 1e5}, {1e4, 3e4}}) {
+        lookAt(33.7, 11.3, altitude, away);
+        EXPECT_GT(bluePixels(*pictureOf({sea})), 1000u) << altitude;
+        EXPECT_EQ(bluePixels(*pictureOf({sea, slab})), 0u) << altitude;
+    }
+}
+
+TEST_F(SlabPicture, DoesNotMixWithTheColoursOfSlabsBehindIt) {
+    const auto slab = [](TileVerdict verdict, core::Interval altitude) {
+        osg::Vec4 faces = verdictColour(verdict);
+        faces.a() = 0.5F;
+        return makeSlab(slabMesh(binDeg({0, 20}, {0, 20}, altitude), kEarth, SlabShape::Bin), faces, faces, 21);
+    };
+    const osg::ref_ptr<osg::Node> sea = makeSea(binDeg({-20, 40}, {-20, 40}, {0.0, 0.0}));
+    const auto low = slab(TileVerdict::Hidden, {0.0, 1e4}), high = slab(TileVerdict::Outside, {1e5, 2e5});
+    lookAt(10.0, 10.0, 3e6, 0.0);
+    const auto alone = pictureOf({sea, high}), both = pictureOf({sea, low, high}),
+               reverse = pictureOf({sea, high, low});
+    const auto middle = [](const osg::Image& image) {
+        return osg::Vec4(image.getColor(test::kSurfaceSize / 2, test::kSurfaceSize / 2));
+    };
+    EXPECT_NE(middle(*alone), middle(*pictureOf({sea, low})));
+    EXPECT_EQ(middle(*both), middle(*alone));
+    EXPECT_EQ(middle(*reverse), middle(*alone));
+    // past the far plane, where CameraCulling's overlay has depths clamped
+    _viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 1e2, 1e5);
+    EXPECT_EQ(middle(*pictureOf({low, high})), middle(*pictureOf({high})));
+    EXPECT_EQ(middle(*pictureOf({high, low})), middle(*pictureOf({high})));
+    EXPECT_NE(middle(*pictureOf({low})), middle(*pictureOf({high})));
 }
 
 }  // namespace
