@@ -42,7 +42,7 @@ changes=$(git status --porcelain)
 [ -z "$changes" ] || fail "not committed: $(echo "$changes" | cut -c 4- | paste -s -d ' ')"
 commit=$(git rev-parse HEAD)
 tagged=$(git rev-parse -q --verify "refs/tags/v$version^{commit}" || true)
-[ "${tagged:-$commit}" = "$commit" ] || fail "the tag v$version is another commit, $tagged: raise the version in CMakeLists.txt and CHANGELOG.md"
+[ "${tagged:-$commit}" = "$commit" ] || fail "the tag v$version is another commit, $tagged: raise the version"
 
 export LC_ALL=C
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)

@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 """Checks the pages of the site: each has a title of its own, and links and pictures lead to files and anchors that are
-there. With Chromium it opens each page from its file, without a window; then nothing may complain on the console, fail to
-load or come from a network, and no page may be wider than the window. Exit code 77: skipped, there is no Chromium.
-Arguments: folder of the pages; then Chromium; then a folder for pictures, and the names of the pages to take them of."""
+there. With Chromium it opens each page from its file, without a window; then nothing may complain on the console, fail
+to load or come from a network, and no page may be wider than the window. Exit code 77: skipped, there is no Chromium.
+Arguments: folder of the pages; then Chromium."""
 
-import base64
 import html.parser
 import json
 import os
@@ -18,8 +17,9 @@ import urllib.parse
 
 SKIPPED = 77
 
-FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --disable-dev-shm-usage --no-first-run --disable-extensions
-    --disable-background-networking --disable-component-update --disable-sync --window-size=1280,1000 --remote-debugging-pipe"""
+FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --disable-dev-shm-usage --no-first-run
+    --disable-extensions --disable-background-networking --disable-component-update --disable-sync
+    --window-size=1280,1000 --remote-debugging-pipe"""
 
 # What a page holds when its scripts have run.
 CONTENT = """new Promise(done => setTimeout(() => requestAnimationFrame(() => {
@@ -55,15 +55,16 @@ class Content(html.parser.HTMLParser):
 
 
 class Browser:
-    """Chromium as its development tools steer it: JSON between zero bytes, written to its file descriptor 3, read from 4."""
+    """Chromium as its development tools steer it: it reads JSON from file descriptor 3 and writes JSON to 4, with a zero
+    byte after each."""
 
     def __init__(self, program, profile):
         commands, answers = (pathlib.Path(profile, name) for name in ("commands", "answers"))
         os.mkfifo(commands)
         os.mkfifo(answers)
-        self._process = subprocess.Popen(
-            ["sh", "-c", f'exec "$0" "$@" 3<"{commands}" 4>"{answers}"', program, *FLAGS.split(), f"--user-data-dir={profile}"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        command = f'exec "$0" "$@" 3<"{commands}" 4>"{answers}"'
+        self._process = subprocess.Popen(["sh", "-c", command, program, *FLAGS.split(), f"--user-data-dir={profile}"],
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self._commands = commands.open("wb", buffering=0)
         self._answers = answers.open("rb")
         self._count = 0
@@ -84,7 +85,8 @@ class Browser:
 
     def call(self, method, **parameters):
         self._count += 1
-        self._commands.write(json.dumps({"id": self._count, "method": method, "params": parameters} | self._session).encode() + b"\0")
+        message = {"id": self._count, "method": method, "params": parameters} | self._session
+        self._commands.write(json.dumps(message).encode() + b"\0")
         while (message := self._read()).get("id") != self._count:
             self.events.append(message)
         if "error" in message:
@@ -97,10 +99,8 @@ class Browser:
         self.call("Page.navigate", url=url)
         while not any(event["method"] == "Page.loadEventFired" for event in self.events):
             self.events.append(self._read())
-        return self.call("Runtime.evaluate", expression=CONTENT, awaitPromise=True, returnByValue=True)["result"]["value"]
-
-    def picture(self, file):
-        file.write_bytes(base64.b64decode(self.call("Page.captureScreenshot")["data"]))
+        result = self.call("Runtime.evaluate", expression=CONTENT, awaitPromise=True, returnByValue=True)
+        return result["result"]["value"]
 
     def close(self):
         self.call("Browser.close")
@@ -108,7 +108,8 @@ class Browser:
 
 
 def complaints(events):
-    requests = {e["params"]["requestId"]: e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"}
+    sent = [event["params"] for event in events if event["method"] == "Network.requestWillBeSent"]
+    requests = {request["requestId"]: request["request"]["url"] for request in sent}
     for url in requests.values():
         if not url.startswith(("file:", "data:")):
             yield f"would load {url}"
@@ -140,7 +141,7 @@ def missing(pages, folder):
                 yield f"{name}: no anchor {target}#{anchor}"
 
 
-def problems(folder, browser, pictures, pictured):
+def problems(folder, browser):
     pages = {}
     titles = {}
     for file in sorted(folder.rglob("*.html")):
@@ -153,23 +154,22 @@ def problems(folder, browser, pictures, pictured):
         if file.parent == folder and not file.stem.endswith("-members") and content["title"] in ("", *titles):
             yield f"{name}: its title \"{content['title']}\" is that of {titles.get(content['title'])}"
         titles[content["title"]] = name
-        if file.stem in pictured:
-            browser.picture(pathlib.Path(pictures, f"{file.stem}.png"))
     if len(pages) < 20:
         yield f"{folder}: only {len(pages)} pages"
     yield from missing(pages, folder)
 
 
 def main():
-    folder, program, pictures, *pictured = sys.argv[1:] + [None] * (4 - len(sys.argv))
-    folder = pathlib.Path(folder).resolve()
-    if program and not shutil.which(program):
+    folder = pathlib.Path(sys.argv[1]).resolve()
+    if len(sys.argv) == 2:
+        found = list(problems(folder, None))
+    elif not shutil.which(sys.argv[2]):
         print("skipped: there is no Chromium")
         return SKIPPED
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = Browser(program, profile) if program else None
-        found = list(problems(folder, browser, pictures, pictured))
-        if browser:
+    else:
+        with tempfile.TemporaryDirectory() as profile:
+            browser = Browser(sys.argv[2], profile)
+            found = list(problems(folder, browser))
             browser.close()
     print("\n".join(found) or "all pages are right, and all links lead somewhere")
     return 1 if found else 0
