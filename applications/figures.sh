@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 5 and 7): builds
+# Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 5 and 6): builds
 # the project, the demo's database and a regional one, flies all camera paths over them, draws flights, jumps from pose
 # to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. 13 to
 # 18 minutes on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.

@@ -49,7 +49,7 @@ HorizonPoint::HorizonPoint(const core::HorizonBin& bin) noexcept {
     _inverseRadius = rows[row::InverseRadius];
 }
 
-// As the horizon test of bins: doc/theory/horizon.md, section 4.
+// As the horizon test of bins: doc/theory/horizon.md, section 3.
 bool HorizonPoint::isHiddenFrom(const core::HorizonEye& eye) const noexcept {
     const core::HorizonEyeData& data = eye.data();
     const double cosine = glm::dot({data.x, data.y, data.z}, _direction);

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SPECIAL = re.compile(r"(?P<code>`[^`]*`)|\]\((?P<target>[^()\s]+)\)|\b(?P<name>osgAnalyticBin)\b(?!::)")
-PICTURES = {".gif", ".jpg", ".png"}
+PICTURES = {".gif", ".jpg", ".png", ".svg"}
 
 
 def slugs(text):

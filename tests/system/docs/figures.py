@@ -31,18 +31,24 @@ def differences(readme, results, guide):
     # rows in any order; README has another word for one
     names = {"files": "files read"}
     shown = table(readme, "| | spheres |")
-    for row in table(results, "| sums of the"):
+    for row in table(results, "| sums of "):
         name = names.get(row[0], row[0])
         own = [cells for cells in shown if cells[0].startswith(name)]
         if [[number(cell) for cell in cells[1:]] for cells in own] != [row[1:]]:
             yield f"\"{name}\": README has {own}, results.md has {row[1:]}"
-    total = [row for row in table(results, "| path | poses | needed |") if "all" in row[0]][-1]
-    for words, figure in ((f"over {total[1]} views", "poses"), (f"({total[2]} are in view", "tiles needed")):
+    other = table(readme, "| other databases")
+    readme = " ".join(readme.split())
+    poses, needed = re.search(r"^\| sums of (\d+) poses, (\d+) tiles needed", results, flags=re.M).groups()
+    for words, figure in ((f"over {poses} views", "poses"), (f"({needed} are in view", "tiles needed")):
         if words not in readme:
             yield f"{figure}: README does not say \"{words}\", as results.md does"
-    culled, of = (int(count) for count in re.search(r"\((\d+) of (\d+) in \[one valley", readme).groups())
+    culled, of = (int(count) for count in re.search(r"(\d+) tiles of (\d+) are culled in \[one valley", readme).groups())
     if not all(f"{count} tiles drawn" in guide for count in (of, of - culled)):
         yield f"README culls {culled} tiles of {of} in a valley, guide.md others"
+    for row in other:
+        for figure in re.findall(r"\d+\.\d+|\d{3,}", " ".join(row)):
+            if figure not in results:
+                yield f"\"{row[0]}\": README has {figure}, results.md has not"
     frames = [row for row in table(results, "| figure | value |") if row[0].startswith("`frame_")]
     for row in frames:
         for figure in re.findall(r"[0-9]\.[0-9]+", row[1] + row[3]):

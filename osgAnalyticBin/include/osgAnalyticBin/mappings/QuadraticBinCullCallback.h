@@ -20,8 +20,8 @@ namespace osgAnalyticBin {
 /// AnalyticBinCullCallback does. It is not stored in files; the application installs it after loading.
 /// Leave culling active on the node: OSG's own sphere test runs first, and the bin tests the nodes that pass. With
 /// setCullingActive(false) only the bin is tested, and OSG stops testing the groups above the node. This takes up to
-/// twice as long (doc/theory/accuracy.md). Use it only where the sphere does not hold what the node draws, for example
-/// with paged children.
+/// 2.8 times as long (doc/theory/accuracy.md). Use it only where the sphere does not hold what the node draws, for
+/// example with paged children.
 /// Frame: the bin is in the frame of the node's children; transforms above the node need nothing.
 /// Guarantee: a node is never culled by its bin if a point of the bin is inside all planes;
 /// tests: QuadraticBinCullCallback.*.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The horizon test: doc/theory/horizon.md, section 4. `bin[row]` counts from the first row of the horizon.
+// The horizon test: doc/theory/horizon.md, section 3. `bin[row]` counts from the first row of the horizon.
 // Included behind a namespace's numbers.
 
 // Of one cosine that is compared; doc/theory/horizon.md, section 5.

@@ -38,7 +38,7 @@ private:
     std::array<bool, 2> _known{};
 };
 
-/// The most points that a search asks for; more points rarely find a plane: doc/theory/horizon.md, section 7.
+/// The most points that a search asks for; more points rarely find a plane.
 inline constexpr int kSeparationSteps = 6;
 
 /// Bins that straddle more planes are large compared with the frustum and rarely separated from it.
