@@ -42,6 +42,7 @@ def replaced(match, file):
 
 def lines(file):
     text = re.sub(r"\A(<!--.*?-->\s*)*", "", file.read_text(encoding="utf-8"))
+    text = re.sub(r"\[[^\[\]]+\]\(", lambda match: match[0].replace("\n", " "), text)  # texts of links stay on a line
     anchors = slugs(text)
     fenced = False
     for number, line in enumerate(text.splitlines()):

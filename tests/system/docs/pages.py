@@ -9,6 +9,7 @@ import html.parser
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -26,7 +27,7 @@ CONTENT = """new Promise(done => setTimeout(() => requestAnimationFrame(() => {
     const all = (what, get) => Array.from(document.querySelectorAll(what), get);
     const shown = document.querySelector('#doc-content') || document.body;
     done({title: document.title, anchors: all('[id]', e => e.id).concat(all('a[name]', e => e.name)),
-        links: all('a[href]', e => e.href).concat(all('img[src]', e => e.src)),
+        links: all('a[href]', e => e.href).concat(all('img[src]', e => e.src), all('object[data]', e => e.data)),
         excess: shown.scrollWidth - shown.clientWidth});
 }), 0))"""
 
@@ -46,7 +47,7 @@ class Content(html.parser.HTMLParser):
         for name, value in attrs:
             if name == "id" or (tag, name) == ("a", "name"):
                 self.page["anchors"].append(value)
-            elif name in ("href", "src"):
+            elif name in ("href", "src", "data"):
                 self.page["links"].append(urllib.parse.urljoin(self._base, value))
 
     def handle_data(self, data):
@@ -154,6 +155,8 @@ def problems(folder, browser):
         if file.parent == folder and not file.stem.endswith("-members") and content["title"] in ("", *titles):
             yield f"{name}: its title \"{content['title']}\" is that of {titles.get(content['title'])}"
         titles[content["title"]] = name
+        if command := re.search(r"@(ref|section|image|code)\b", file.read_text(encoding="utf-8")):
+            yield f"{name}: Doxygen left {command[0]} in the text"
     if len(pages) < 20:
         yield f"{folder}: only {len(pages)} pages"
     yield from missing(pages, folder)
