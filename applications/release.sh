@@ -8,8 +8,8 @@
 #     sh applications/release.sh              # the zip only where an earlier one left its libraries in build/windows
 #     sh applications/release.sh --windows    # the zip, too: 35 minutes more
 #     sh applications/release.sh --source     # the source archive alone
-# For one commit, each run makes the same source archive and pages. Packages and zip depend on the compiler and on who
-# makes them.
+# For one commit, each run makes the same source archive and pages. Packages differ with the compiler and with who makes
+# them, the zip with each run.
 set -eu
 cd "$(dirname "$0")/.."
 
