@@ -6,6 +6,7 @@
 #include "../kit/tile/InstalledTile.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <array>
@@ -27,12 +28,14 @@ using core::HorizonBuffer;
 
 // A shown tile.
 struct Candidate {
-    const ShownTile* tile;
-    double distance;   // metres from the eye to a corner of the bin, the nearest one
-    double size;       // metres from corner to corner
-    bool isHidden;     // as far as is known
-    bool isMeshAlone;  // finer levels may reach higher
-    bool isInPicture;  // at least one quarter is
+    const FoundOcclusion::Tile* tile;
+    const core::GroundPlates* plates;  // null: not known
+    bool isOnlyLevel;
+    double distance = HUGE_VAL;  // metres from the eye to a corner of the bin, the nearest one
+    double size = 0.0;           // metres from corner to corner
+    bool isHidden = true;        // as far as is known
+    bool isMeshAlone = false;    // finer levels may reach higher
+    bool isInPicture = false;    // at least one quarter is
 };
 
 // A quarter of a tile's bin that is not beside the picture. Quarters are tested one by one, because more terrain is in
@@ -44,87 +47,78 @@ struct Quarter {
 
 class OcclusionSearch {
 public:
-    OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
-                    FoundOcclusion& found)
-        : _region(view.region),
-          _shown(shown),
+    OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, FoundPtr found)
+        : _region(view.region ? std::optional(*view.region) : std::nullopt),
           _ellipsoid(view.ellipsoid),
-          _meshes(meshes),
-          _found(found),
-          _frame(found.eye),
-          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
-                  found.eyes) {}
+          _found(std::move(found)),
+          _frame(_found->eye),
+          _buffer(glm::length(_found->eye.origin), _found->span.across, _found->span.drawing, _found->span.depthStep,
+                  _found->eyes) {
+        _candidates.reserve(shown.size());
+        _plates.reserve(shown.size());
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const InstalledTile* const installed = shown[i].tile->getInstalledTile();
+            _plates.push_back(installed ? installed->plates() : nullptr);
+            _candidates.push_back({&_found->tiles[i], _plates.back().get(), shown[i].isOnlyLevel});
+        }
+    }
 
-    // Returns: whether something was found.
-    [[nodiscard]] bool run() {
-        const std::size_t tiles = _shown.size();
-        _candidates.reserve(tiles);
-        _quarters.reserve(2 * tiles);
-        _order.reserve(2 * tiles);
-        for (const ShownTile& tile : _shown) {
-            if (!add(tile)) return false;
-        }
+    // Looks at the terrain that the near plane may cut. Returns: false where it may be at the eye, or where something
+    // is not known.
+    [[nodiscard]] bool prepare(const std::vector<ShownTile>& shown, NearMeshes& meshes) {
+        const auto isPlaced = [](const FoundOcclusion::Tile& tile) { return tile.isPlaced(); };
+        if (!std::all_of(_found->tiles.begin(), _found->tiles.end(), isPlaced)) return false;
+        _found->lastClearance = HUGE_VAL;
+        if (!(_found->nearReach > 0.0)) return true;
+        const std::optional<NearTerrain> terrain = terrainWithin(1.01 * _found->nearReach, shown, meshes);
+        if (!terrain || !(terrain->top < HUGE_VAL)) return false;
+        _found->lastClearance = terrain->nearest;
+        _buffer.setLowest(terrain->top);
+        return true;
+    }
+
+    [[nodiscard]] FoundPtr run() {
+        _quarters.reserve(2 * _candidates.size());
+        _order.reserve(2 * _candidates.size());
+        for (std::size_t i = 0; i < _candidates.size(); ++i) addQuarters(i);
         std::sort(_order.begin(), _order.end());
-        double clearance = HUGE_VAL;
-        if (_found.nearReach > 0.0) {
-            const double nearReach = 1.01 * _found.nearReach;
-            const std::optional<NearTerrain> terrain = terrainWithin(nearReach);
-            if (!terrain || !(terrain->top < HUGE_VAL)) return false;
-            clearance = terrain->nearest;
-            _buffer.setLowest(terrain->top);
-        }
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
             if (_buffer.hides(quarter.outline)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
-        _found.lastClearance = std::min(clearance, _buffer.nearestEarth());
-        _found.covered = covered();
-        _found.findings.clear();
+        _found->lastClearance = std::min(_found->lastClearance, _buffer.nearestEarth());
+        _found->covered = covered();
+        _found->findings.clear();
         for (const Candidate& candidate : _candidates) {
             using Finding = FoundOcclusion::Finding;
             const Finding hidden = candidate.isMeshAlone ? Finding::MeshHidden : Finding::Hidden;
             const Finding inPicture = candidate.isHidden ? hidden : Finding::Seen;
-            _found.findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
+            _found->findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
         }
-        _found.profile.reset();
-        _found.earth = std::move(_buffer);
-        return true;
+        _found->profile.reset();
+        _found->earth = std::move(_buffer);
+        return std::move(_found);
     }
 
 private:
-    // Returns: false where the place of the tile is not known.
-    [[nodiscard]] bool add(const ShownTile& shown) {
-        const AnalyticBinCullCallback& tile = *shown.tile;
-        const GeodeticBin& bin = tile.getBin().bin();
-        const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
-        if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
-        Candidate candidate{&shown, HUGE_VAL, 0.0, true, false, false};
-        const GeodeticBin drawn = bin.withAltitude(altitude);
-        const core::BinBody body(_ellipsoid, drawn, tile.getBin().margin(), _frame);
-        if (_buffer.isBeside(body.ball())) {
-            _candidates.push_back(candidate);
-            return true;
-        }
+    void addQuarters(std::size_t number) {
+        Candidate& candidate = _candidates[number];
+        const GeodeticBin drawn = candidate.tile->drawn();
+        const core::BinBody body(_ellipsoid, drawn, candidate.tile->margin, _frame);
+        if (_buffer.isBeside(body.ball())) return;
         auto hulls = body.quarters();
-        const InstalledTile* const installed = tile.getInstalledTile();
-        const core::GroundPlates* const plates = installed && shown.isOnlyLevel ? installed->plates() : nullptr;
-        candidate.isMeshAlone = plates && plates->lowerTops(drawn, hulls);
+        candidate.isMeshAlone = candidate.plates && candidate.isOnlyLevel && candidate.plates->lowerTops(drawn, hulls);
         candidate.size = 2.0 * glm::distance(hulls.back().corner(0), hulls.back().corner(7));
-        std::size_t number = 0;
-        for (const BinHull& hull : hulls) {
-            const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
+        for (std::size_t i = 0; i < hulls.size(); ++i) {
+            const HorizonBuffer::Outline outline = _buffer.outlineOf(hulls[i]);
             candidate.distance = std::min(candidate.distance, outline.distance);
-            if (!outline.isBeside) {
-                candidate.isInPicture = true;
-                _order.emplace_back(outline.nearest, _quarters.size());
-                _quarters.push_back({_candidates.size(), number, outline});
-            }
-            ++number;
+            if (outline.isBeside) continue;
+            candidate.isInPicture = true;
+            _order.emplace_back(outline.nearest, _quarters.size());
+            _quarters.push_back({number, i, outline});
         }
-        _candidates.push_back(candidate);
-        return true;
     }
 
     // Terrain that the near plane may cut.
@@ -133,24 +127,37 @@ private:
         double nearest = HUGE_VAL;  // metres from the eye, roughly
     };
 
+    // Whether something of a tile may be between the sides of the picture and within `reach` of the eye.
+    [[nodiscard]] bool isWithin(double reach, const FoundOcclusion::Tile& tile) const {
+        const GeodeticBin drawn = tile.drawn();
+        const core::BinBody body(_ellipsoid, drawn, tile.margin, _frame);
+        const core::BinBall ball = body.ball();
+        const double farthest = reach + _found->eyes.y;
+        constexpr double kRounding = 1.0;  // metres, and more
+        if (ball.centre.y - ball.radius - kRounding > farthest || _buffer.isBeside(ball)) return false;
+        const auto hulls = body.quarters();
+        return std::any_of(hulls.begin(), hulls.end(), [&](const BinHull& hull) {
+            const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
+            return !outline.isBeside && !(outline.nearest > farthest);
+        });
+    }
+
     // All that is between the sides of the picture and within `reach` of the eye. Returns: nullopt where that is not
     // known.
-    [[nodiscard]] std::optional<NearTerrain> terrainWithin(double reach) const {
-        const core::Interval& across = _found.span.across;
+    [[nodiscard]] std::optional<NearTerrain> terrainWithin(double reach, const std::vector<ShownTile>& shown,
+                                                           NearMeshes& meshes) const {
+        const core::Interval& across = _found->span.across;
         const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
         NearTerrain terrain;
-        std::vector<std::size_t> tiles;
-        for (const auto& [nearest, number] : _order) {
-            if (nearest - _found.eyes.y > reach) break;
-            const Quarter& quarter = _quarters[number];
-            const bool isKnown = std::find(tiles.begin(), tiles.end(), quarter.candidate) != tiles.end();
-            if (isKnown) continue;
-            if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
-            tiles.push_back(quarter.candidate);
-            const ShownTile& tile = *_candidates[quarter.candidate].tile;
-            const glm::dvec3 margin = _found.eyes + tile.tile->getBin().margin();
+        std::size_t tiles = 0;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const FoundOcclusion::Tile& tile = _found->tiles[i];
+            if (!isWithin(reach, tile)) continue;
+            if (++tiles > NearMeshes::kMostTiles) return std::nullopt;
+            const glm::dvec3 margin = _found->eyes + tile.margin;
             const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
-            const core::EcefMesh* const mesh = _meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
+            const core::EcefMesh* const mesh =
+                meshes.trianglesNear(*shown[i].tile, *shown[i].mesh, _found->eye, radius);
             if (!mesh) return std::nullopt;
             add(*mesh, reach, margin, terrain);
         }
@@ -159,13 +166,13 @@ private:
 
     // Triangles that may be `margin` metres away from their place, along each axis.
     void add(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin, NearTerrain& terrain) const {
-        const auto& [eye, right, ahead, up] = _found.eye;
+        const auto& [eye, right, ahead, up] = _found->eye;
         // inside is where p.normal >= offset
         struct HalfSpace {
             glm::dvec3 normal;
             double offset;
         };
-        const auto [left, most] = _found.span.across;
+        const auto [left, most] = _found->span.across;
         const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin.y}, HalfSpace{-ahead, -reach - margin.y},
                                              HalfSpace{right - left * ahead, -margin.x - margin.y * std::abs(left)},
                                              HalfSpace{most * ahead - right, -margin.x - margin.y * std::abs(most)}};
@@ -199,7 +206,7 @@ private:
     [[nodiscard]] double topOf(const std::vector<glm::dvec3>& polygon, const glm::dvec3& margin) const {
         double top = -HUGE_VAL, highest = -HUGE_VAL, nearest = HUGE_VAL;
         for (const glm::dvec3& point : polygon) {
-            const double height = glm::dot(point, _found.eye.z) + margin.z, ahead = glm::dot(point, _found.eye.y);
+            const double height = glm::dot(point, _found->eye.z) + margin.z, ahead = glm::dot(point, _found->eye.y);
             highest = std::max(highest, height);
             nearest = std::min(nearest, ahead - margin.y);
             const double distance = height < 0.0 ? ahead + margin.y : ahead - margin.y;
@@ -210,8 +217,8 @@ private:
 
     [[nodiscard]] std::shared_ptr<const CoveredPicture> covered() const {
         const auto picture = std::make_shared<CoveredPicture>();
-        picture->eye = _found.eye;
-        picture->across = _found.span.across;
+        picture->eye = _found->eye;
+        picture->across = _found->span.across;
         picture->heights.reserve(HorizonBuffer::kStrips);
         for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
             picture->heights.push_back(_buffer.covered(strip));
@@ -220,42 +227,36 @@ private:
 
     // Lines of sight that meet earth there come from above the terrain, not from beside it.
     [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const { return !_region || _region->contains(bin); }
-    [[nodiscard]] bool isQuarterOverRegion(const Quarter& quarter) const {
-        return isOverRegion(_candidates[quarter.candidate].tile->tile->getBin().bin().quarters()[quarter.number]);
-    }
 
     void addEarth(const Quarter& quarter) {
         const Candidate& candidate = _candidates[quarter.candidate];
-        const InstalledTile* const installed = candidate.tile->tile->getInstalledTile();
-        const core::GroundPlates* const plates = installed && candidate.tile->isSure ? installed->plates() : nullptr;
-        const bool isTileOverRegion = isOverRegion(candidate.tile->tile->getBin().bin());
-        if (!plates || (!isTileOverRegion && !isQuarterOverRegion(quarter))) return;
+        const FoundOcclusion::Tile& tile = *candidate.tile;
+        const bool isTileOverRegion = isOverRegion(tile.bin);
+        if (!candidate.plates || !tile.isSure) return;
+        if (!isTileOverRegion && !isOverRegion(tile.bin.quarters()[quarter.number])) return;
         // a cell should be some strips wide
         constexpr double kStripsOfCell = 8.0;
         const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
-                              _found.span.across.width() * HorizonBuffer::kStrips;
+                              _found->span.across.width() * HorizonBuffer::kStrips;
         std::size_t cells = 8;
         while (cells > 2 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
         // deep enough to reach below what is behind it, and not so deep that columns part
-        const AnalyticBinCullCallback& tile = *candidate.tile->tile;
         const double radius = _ellipsoid.polarRadius();
         const double depth =
-            std::min(std::min(2.0 * (tile.getBinHigh() - tile.getBinLow()), 0.02 * radius) + 0.25 * candidate.distance,
-                     0.09 * radius);
+            std::min(std::min(2.0 * (tile.high - tile.low), 0.02 * radius) + 0.25 * candidate.distance, 0.09 * radius);
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        plates->columns(cells, coarsest, quarter.number, depth, _frame, _columns);
+        candidate.plates->columns(cells, coarsest, quarter.number, depth, _frame, _columns);
         _buffer.add(_columns);
     }
 
-    const core::CoveredRegion* const _region;
-    const std::vector<ShownTile>& _shown;
-    const core::Ellipsoid& _ellipsoid;
-    NearMeshes& _meshes;
-    FoundOcclusion& _found;
+    const std::optional<core::CoveredRegion> _region;
+    const core::Ellipsoid _ellipsoid;
+    FoundPtr _found;
     const core::InverseFrame _frame;
     HorizonBuffer _buffer;
+    std::vector<std::shared_ptr<const core::GroundPlates>> _plates;  // held
     std::vector<Candidate> _candidates;
     std::vector<Quarter> _quarters;
     std::vector<std::pair<double, std::size_t>> _order;  // of the quarters, by the distance of the nearest point
@@ -263,6 +264,10 @@ private:
 };
 
 }  // namespace
+
+bool FoundOcclusion::Tile::isPlaced() const {
+    return !bin.empty() && std::isfinite(low) && std::isfinite(high);
+}
 
 bool FoundOcclusion::Tile::operator==(const Tile& other) const {
     return std::tie(tile, mesh, isSure, plates, margin, low, high) ==
@@ -274,7 +279,7 @@ namespace {
 
 bool isOutOfView(const FoundOcclusion::Tile& tile, const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
     constexpr double kRoom = 1.0;  // metres, more than rounding
-    const GeodeticBin drawn = tile.bin.withAltitude({tile.low, tile.high});
+    const GeodeticBin drawn = tile.drawn();
     const auto quarters = core::BinBody(ellipsoid, drawn, tile.margin, core::Frame()).quarters();
     return std::all_of(quarters.begin(), quarters.end(), [&](const BinHull& hull) {
         for (std::size_t i = 0; i < view.size(); ++i) {
@@ -287,22 +292,64 @@ bool isOutOfView(const FoundOcclusion::Tile& tile, const core::PlaneSet& view, c
     });
 }
 
+// Whether two tiles have a place in common, apart from their borders.
+bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
+    constexpr double kRounding = 1e-12;  // radians, of edges that are the same
+    constexpr double kTurn = 2.0 * glm::pi<double>();
+    const auto overlap = [](const core::Interval& first, const core::Interval& second) {
+        return std::min(first.upper, second.upper) - std::max(first.lower, second.lower);
+    };
+    if (!(overlap(a.latitude(), b.latitude()) > kRounding)) return false;
+    const core::Interval& around = b.longitude();
+    const double turns = std::round((a.longitude().middle() - around.middle()) / kTurn) * kTurn;
+    return overlap(a.longitude(), {around.lower + turns, around.upper + turns}) > kRounding;
+}
+
 }  // namespace
 
-void FoundOcclusion::leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
-    if (tiles.size() <= shown.size() || findings.size() != tiles.size()) return;
-    std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (left.size() < shown.size() && tiles[i] == shown[left.size()]) {
-            left.push_back(i);
-        } else if (findings[i] == Finding::Seen && !isOutOfView(tiles[i], view, ellipsoid)) {
-            return;
+bool FoundOcclusion::isBeyondNear(const Tile& tile, const core::Ellipsoid& ellipsoid) const {
+    if (!tile.isPlaced()) return false;
+    const GeodeticBin drawn = tile.drawn();
+    const core::BinBall ball = core::BinBody(ellipsoid, drawn, tile.margin, eye).ball();
+    constexpr double kRoom = 1.0;  // metres, more than rounding
+    return glm::length(ball.centre) > ball.radius + glm::length(eyes) + nearReach + tile.margin + kRoom;
+}
+
+bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
+    if (tiles == shown) return true;
+    constexpr std::size_t kMost = 16;  // tiles that have come, or left the view: each costs a look at all others
+    std::vector<Finding> now;
+    now.reserve(shown.size());
+    std::size_t next = 0;
+    const auto passUntil = [&](std::size_t end) {
+        for (; next < end; ++next) {
+            if (findings[next] != Finding::Seen) continue;
+            if (leftView.size() == kMost || !isOutOfView(tiles[next], view, ellipsoid)) return false;
+            leftView.push_back(tiles[next].bin);
+        }
+        return true;
+    };
+    for (const Tile& tile : shown) {
+        const auto from = tiles.begin() + static_cast<std::ptrdiff_t>(next);
+        const auto same = static_cast<std::size_t>(std::find(from, tiles.end(), tile) - tiles.begin());
+        if (same == tiles.size()) {
+            if (come.size() == kMost || !isBeyondNear(tile, ellipsoid)) return false;
+            come.push_back(tile.bin);
+            now.push_back(Finding::Seen);
+        } else {
+            if (!passUntil(same)) return false;
+            now.push_back(findings[next++]);
         }
     }
-    if (left.size() != shown.size()) return;
-    for (std::size_t i = 0; i < left.size(); ++i) findings[i] = findings[left[i]];
-    findings.resize(left.size());
+    if (!passUntil(tiles.size())) return false;
+    for (const GeodeticBin& bin : come) {
+        for (const GeodeticBin& left : leftView) {
+            if (areOverOneAnother(bin, left)) return false;
+        }
+    }
+    findings = std::move(now);
     tiles = shown;
+    return true;
 }
 
 void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step) {
@@ -334,9 +381,11 @@ bool FoundOcclusion::isJump(const glm::dvec3& step) const {
     return glm::length(step) >= kJump * lastClearance;
 }
 
-bool findOccluded(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
-                  FoundOcclusion& found) {
-    return OcclusionSearch(view, shown, meshes, found).run();
+std::function<FoundPtr()> prepareSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown,
+                                        NearMeshes& meshes, FoundPtr found) {
+    const auto search = std::make_shared<OcclusionSearch>(view, shown, std::move(found));
+    if (!search->prepare(shown, meshes)) return nullptr;
+    return [search] { return search->run(); };
 }
 
 }  // namespace osgAnalyticBin

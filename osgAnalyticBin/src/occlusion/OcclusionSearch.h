@@ -18,6 +18,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,6 +36,10 @@ struct FoundOcclusion {
         std::uint64_t plates;  ///< see InstalledTile::numberOfPlates()
         core::GeodeticBin bin;
         double margin, low, high;
+        /// What is drawn with it. Requires: isPlaced().
+        [[nodiscard]] core::GeodeticBin drawn() const { return bin.withAltitude({low, high}); }
+        /// Whether it is known where the tile is.
+        [[nodiscard]] bool isPlaced() const;
         [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const Tile& other) const;
     };
     enum class Finding : std::uint8_t {
@@ -57,6 +62,11 @@ struct FoundOcclusion {
     std::optional<core::HorizonBuffer> earth;     ///< all that hides
     std::optional<core::HorizonProfile> profile;  ///< the same, once it is asked for
     int uses = 0;                                 ///< views since the search
+    /// @{
+    /// Since the search; see follow().
+    std::vector<core::GeodeticBin> come;      ///< of tiles that were not shown then
+    std::vector<core::GeodeticBin> leftView;  ///< of tiles that hid others, and are out of view
+    /// @}
 
     /// @{
     /// Of the last view, whether it used the result or not.
@@ -68,9 +78,11 @@ struct FoundOcclusion {
     /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view.
     void aimAlong(const core::Frame& from, const glm::dvec3& step);
 
-    /// Removes tiles that are no longer shown, if the result holds without them: those that hid nothing, and those that
-    /// are out of view. Source: doc/theory/occlusion.md, section 5.
-    OSGANALYTICBIN_EXPORT void leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
+    /// Takes over the tiles that are shown now, if the result holds with them. Tiles that hid nothing may have gone.
+    /// Those that hid others may have gone out of view. Tiles may have come beyond the reach of the near plane, but not
+    /// where one has gone out of view: they hide nothing, and are not hidden. Source: doc/theory/occlusion.md,
+    /// section 5. Returns: whether the result holds.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
 
     /// Whether the box of eyes contains this one.
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
@@ -80,17 +92,24 @@ struct FoundOcclusion {
         return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
     }
 
+    /// Whether all of a tile is farther from all eyes than the near plane reaches.
+    [[nodiscard]] bool isBeyondNear(const Tile& tile, const core::Ellipsoid& ellipsoid) const;
+
     /// Whether the eye has moved too far since the last view for a continuous motion.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
 };
 
-/// Finds shown tiles that are hidden behind the terrain of others.
+using FoundPtr = std::unique_ptr<FoundOcclusion>;
+
+/// Prepares a search for shown tiles that are hidden behind the terrain of others: reads the meshes that the near plane
+/// may cut, and copies all else that the search needs. So it may run in another thread, while tiles come and go.
 /// Requires: all tiles that are shown; in `found` everything is set except the findings.
 /// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
-/// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: false where the near plane may cut into
-/// terrain, or where the place of a tile is not known. Cost: a sort of the shown tiles, and a few microseconds for each
-/// that is not hidden.
-[[nodiscard]] bool findOccluded(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
-                                FoundOcclusion& found);
+/// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: the search, to be called once; empty where
+/// the near plane may cut into terrain, or where the place of a tile is not known. Cost: of the search, a sort of the
+/// shown tiles, and a few microseconds for each that is not hidden.
+[[nodiscard]] std::function<FoundPtr()> prepareSearch(const TerrainHider::View& view,
+                                                      const std::vector<ShownTile>& shown, NearMeshes& meshes,
+                                                      FoundPtr found);
 
 }  // namespace osgAnalyticBin

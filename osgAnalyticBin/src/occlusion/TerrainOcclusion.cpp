@@ -42,7 +42,7 @@ Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& al
             ground = Ground::Awaited;
             continue;
         }
-        const core::GroundPlates* const plates = installed->plates();
+        const core::GroundPlates* const plates = installed->plates().get();
         if (!plates || !std::isfinite(plates->least(1, 0, 0))) return Ground::Unknown;
         // osgTerrain tiles have a sphere about their posts, and another one about their mesh
         constexpr double kOfMesh = 0.5;
@@ -61,17 +61,14 @@ std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
     return view.region->extents();
 }
 
-bool isWithin(const core::Interval& inner, const core::Interval& outer) {
-    return inner.lower >= outer.lower && inner.upper <= outer.upper;
-}
+// Meshes around the eye may change: what was found is not believed for more views.
+constexpr int kMostUses = 64;
 
 // Whether what was found holds for a view of these tiles.
 bool serves(FoundOcclusion& found, const TerrainHider::View& view, const std::optional<PictureSpan>& span) {
-    // meshes around the eye may change
-    constexpr int kMostUses = 64;
-    return found.uses++ < kMostUses && found.holds(view.eye) && span && isWithin(span->across, found.span.across) &&
+    return found.uses++ < kMostUses && found.holds(view.eye) && span && found.span.across.contains(span->across) &&
            span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
-           found.region == regionOf(view) && found.tiles == found.shown;
+           found.region == regionOf(view) && found.follow(view.planes, view.ellipsoid);
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
@@ -128,11 +125,12 @@ double reachOfNear(const TerrainHider::View& view, const LevelView& lines, const
     return ahead * (view.nearBound ? view.nearBound->most(hidden) : view.nearReach / toCorner);
 }
 
-// What is hidden, and how far ahead the near plane reaches without it.
-struct LeftOut {
-    std::vector<std::size_t> tiles;
-    double reach;
-};
+// By what factor the corners of a view may come forward, roughly, as far as the picture has room for a turn.
+double turningOf(const LevelView& lines, const FoundOcclusion& found) {
+    const auto [left, right] = PictureSpan::of(lines, found.eye).value_or(found.span).across;
+    const auto [leftmost, rightmost] = found.span.across;
+    return 1.0 + std::max(left - leftmost, rightmost - right) * std::max(std::abs(left), std::abs(right));
+}
 
 LeftOut leftOut(const TerrainHider::View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
                 const FoundOcclusion& found) {
@@ -146,26 +144,71 @@ bool isMuchNearer(double reach, const FoundOcclusion& found) {
     return reach < 0.5 * found.nearReach;
 }
 
-// Searches, supposing how far the near plane reaches. Where OSG computes the plane it follows from what is drawn, and
-// so from what is found: if it turns out no farther, the supposition is right. The farther it reaches the less is
-// found, so that the search begins with less than it may be. Returns: nullopt where nothing is known.
+// How far ahead of the eye the near plane reaches in the views that a search serves, to begin with. Where OSG computes
+// the plane, it follows from what is drawn, and so from what is found: see search().
+double reachToBeginWith(const TerrainHider::View& view, const LevelView& lines, const FoundOcclusion& found) {
+    constexpr double kLeast = 1.0 / 64.0, kRoom = 1.03;
+    // it is rounded anew in each view, and corners of the view come forward as the camera turns
+    const double turned = 1.001 * turningOf(lines, found);
+    const double farthest = turned * reachOfNear(view, lines, found.eye, {});
+    if (!view.nearBound) return farthest;
+    const double needed = found.neededReach > 0.0 ? found.neededReach : kLeast * farthest;
+    return std::min(farthest, kRoom * turned * needed);
+}
+
+// Searches, supposing how far the near plane reaches. If it turns out no farther, the supposition is right. The farther
+// it reaches the less is found, so that the search begins with less than it may be. Returns: nullopt where nothing is
+// known; `found` is null then.
 std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& lines,
-                              const std::vector<ShownTile>& shown, NearMeshes& nearMeshes, FoundOcclusion& found) {
-    // it is rounded anew in each view
-    const double farthest = 1.001 * reachOfNear(view, lines, found.eye, {});
+                              const std::vector<ShownTile>& shown, NearMeshes& nearMeshes, FoundPtr& found) {
     constexpr int kMostSearches = 4;
-    constexpr double kRoom = 1.03;  // for the views to come
-    constexpr double kLeast = 1.0 / 64.0;
-    double needed = found.neededReach > 0.0 ? found.neededReach : kLeast * farthest;
     for (int i = 0; i < kMostSearches; ++i) {
-        found.nearReach = view.nearBound ? std::min(farthest, kRoom * needed) : farthest;
-        if (!findOccluded(view, shown, nearMeshes, found)) return std::nullopt;
-        LeftOut left = leftOut(view, lines, shown, found);
-        needed = left.reach;
-        const bool isNearEnough = i > 0 || !view.nearBound || !isMuchNearer(needed, found);
-        if (needed <= found.nearReach && isNearEnough) return left;
+        found->nearReach = reachToBeginWith(view, lines, *found);
+        const auto run = prepareSearch(view, shown, nearMeshes, std::move(found));
+        if (!run) return std::nullopt;
+        found = run();
+        LeftOut left = leftOut(view, lines, shown, *found);
+        found->neededReach = left.reach;
+        const bool isNearEnough = i > 0 || !view.nearBound || !isMuchNearer(left.reach, *found);
+        if (left.reach <= found->nearReach && isNearEnough) return left;
     }
+    found.reset();
     return std::nullopt;
+}
+
+// What a search of this view begins with.
+FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const LevelView& lines,
+               const std::optional<PictureSpan>& spanThen) {
+    const auto span = PictureSpan::of(lines, lines.frameAt(view.eye));
+    if (!span) return nullptr;
+    auto found = std::make_unique<FoundOcclusion>();
+    found->lastEye = last.lastEye;
+    found->lastAcross = last.lastAcross;
+    found->lastClearance = last.lastClearance;
+    found->neededReach = last.neededReach;
+    aim(*found, lines, view.eye, *span, spanThen);
+    found->tiles = last.shown;
+    found->shown = last.shown;
+    found->region = regionOf(view);
+    return found;
+}
+
+// Whether what was found will not serve the next views, if the camera goes on as it does.
+bool isNearlyUsedUp(const FoundOcclusion& found, const glm::dvec3& eye, const core::Interval& across) {
+    constexpr double kViews = 2.0;
+    const core::Interval then{across.lower + kViews * std::min(0.0, across.lower - found.lastAcross.lower),
+                              across.upper + kViews * std::max(0.0, across.upper - found.lastAcross.upper)};
+    return found.uses + static_cast<int>(kViews) >= kMostUses || !found.holds(eye + kViews * (eye - found.lastEye)) ||
+           !found.span.across.contains(then);
+}
+
+// What is hidden by what was found before, if that holds for this view.
+std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& view, const LevelView& lines,
+                              const std::vector<ShownTile>& shown, const std::optional<PictureSpan>& span) {
+    if (!serves(found, view, span)) return std::nullopt;
+    LeftOut left = leftOut(view, lines, shown, found);
+    if (left.reach > found.nearReach || (view.nearBound && isMuchNearer(left.reach, found))) return std::nullopt;
+    return left;
 }
 
 }  // namespace
@@ -179,38 +222,62 @@ TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<
     const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
     const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
     if (!lines) return {};
-    if (!_found) _found.emplace();
-    FoundOcclusion& found = *_found;
+    if (!_found) _found = std::make_unique<FoundOcclusion>();
     Hidden hidden;
-    const Ground ground = describe(view, shown, found.shown, hidden.withoutPlates);
+    const Ground ground = describe(view, shown, _found->shown, hidden.withoutPlates);
     hidden.isAwaited = ground == Ground::Awaited;
     if (ground != Ground::Known) return hidden;
-    const auto spanThen = PictureSpan::of(*lines, found.eye);
-    found.leaveOut(view.planes, view.ellipsoid);
-    std::optional<LeftOut> left;
-    if (serves(found, view, spanThen)) left = leftOut(view, *lines, shown, found);
-    const bool isServed =
-        left && left->reach <= found.nearReach && !(view.nearBound && isMuchNearer(left->reach, found));
-    if (!isServed) {
-        const auto span = PictureSpan::of(*lines, lines->frameAt(view.eye));
-        if (!span) return {};
-        aim(found, *lines, view.eye, *span, spanThen);
-        found.tiles = found.shown;
-        found.region = regionOf(view);
-        left = search(view, *lines, shown, _nearMeshes, found);
-        if (!left) {
-            _found.reset();
-            return {};
-        }
-        found.uses = 1;
+    auto spanThen = PictureSpan::of(*lines, _found->eye);
+    std::optional<LeftOut> left = served(*_found, view, *lines, shown, spanThen);
+    if (!left) left = servedAhead(view, *lines, shown, spanThen);
+    if (!left) {
+        FoundPtr next = aimed(*_found, view, *lines, spanThen);
+        if (!next) return {};
+        left = search(view, *lines, shown, _nearMeshes, next);
+        _found = std::move(next);
+        if (!left) return {};
+        _found->uses = 1;
+    } else if (!_ahead.valid() && spanThen && isNearlyUsedUp(*_found, view.eye, spanThen->across)) {
+        searchAhead(view, *lines, shown, spanThen);
     }
     hidden.tiles = std::move(left->tiles);
-    found.neededReach = left->reach;
-    hidden.inView = countInView(found, shown);
-    hidden.covered = found.covered;
-    found.lastEye = view.eye;
-    found.lastAcross = PictureSpan::of(*lines, found.eye).value_or(found.span).across;
+    _found->neededReach = left->reach;
+    hidden.inView = countInView(*_found, shown);
+    hidden.covered = _found->covered;
+    _found->lastEye = view.eye;
+    _found->lastAcross = PictureSpan::of(*lines, _found->eye).value_or(_found->span).across;
     return hidden;
+}
+
+// By the search for views that follow, if it serves this one. `spanThen`: in the picture of what was found before.
+std::optional<LeftOut> TerrainOcclusion::servedAhead(const View& view, const LevelView& lines,
+                                                     const std::vector<ShownTile>& shown,
+                                                     std::optional<PictureSpan>& spanThen) {
+    if (!_ahead.valid()) return std::nullopt;
+    FoundPtr ahead = _ahead.get();
+    ahead->shown.swap(_found->shown);
+    const auto span = PictureSpan::of(lines, ahead->eye);
+    std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
+    if (!left) {
+        ahead->shown.swap(_found->shown);
+        return std::nullopt;
+    }
+    ahead->lastEye = _found->lastEye;
+    // the same turn in the other picture
+    const core::Interval before = _found->lastAcross, now = spanThen ? spanThen->across : before;
+    ahead->lastAcross = {span->across.lower + before.lower - now.lower, span->across.upper + before.upper - now.upper};
+    _found = std::move(ahead);
+    spanThen = span;
+    return left;
+}
+
+// Starts a search for the views that follow those which what was found serves.
+void TerrainOcclusion::searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                                   const std::optional<PictureSpan>& spanThen) {
+    FoundPtr next = aimed(*_found, view, lines, spanThen);
+    if (!next) return;
+    next->nearReach = reachToBeginWith(view, lines, *next);
+    if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
 }
 
 bool TerrainOcclusion::hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) {

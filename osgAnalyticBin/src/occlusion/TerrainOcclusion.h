@@ -7,14 +7,23 @@
 #include "NearMeshes.h"
 #include "OcclusionSearch.h"
 
+#include <cstddef>
+#include <future>
 #include <optional>
 #include <vector>
 
 namespace osgAnalyticBin {
 
+/// What is hidden in a view, and how far ahead the near plane reaches without it.
+struct LeftOut {
+    std::vector<std::size_t> tiles;  ///< by their positions among those that are shown
+    double reach;                    ///< metres along the forward axis of the picture
+};
+
 /// Hides shown tiles behind the terrain of others, for an eye above the terrain. It finds nothing for views that look
 /// so steeply that there is no horizon in front of them, if the near plane may cut into terrain, and if a tile may have
-/// a hole. What a search has found is used again if the same tiles are shown and the eye has moved little. Source:
+/// a hole. What a search has found is used again if the same tiles are shown and the eye has moved little; the next
+/// search is made in a thread beside. Source:
 /// doc/theory/occlusion.md, section 5; tests: TerrainOcclusion.*. Cost: a few ten nanoseconds for each shown tile; if
 /// there has to be a search, a sort of the shown tiles and a few microseconds for each that is not hidden.
 class TerrainOcclusion final : public TerrainHider {
@@ -26,8 +35,15 @@ protected:
     ~TerrainOcclusion() override = default;
 
 private:
-    std::optional<FoundOcclusion> _found;  // by the last search
-    NearMeshes _nearMeshes;                // last read around the eye
+    [[nodiscard]] std::optional<LeftOut> servedAhead(const View& view, const LevelView& lines,
+                                                     const std::vector<ShownTile>& shown,
+                                                     std::optional<PictureSpan>& spanThen);
+    void searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                     const std::optional<PictureSpan>& spanThen);
+
+    FoundPtr _found;               // by the last search; null: none
+    std::future<FoundPtr> _ahead;  // of a search for the views that follow those which that one serves
+    NearMeshes _nearMeshes;        // last read around the eye
 };
 
 }  // namespace osgAnalyticBin

@@ -24,6 +24,7 @@
 #include <osg/Shader>
 #include <osgUtil/UpdateVisitor>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -432,6 +433,25 @@ TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlight) {
     }
 }
 
+// The next search is made in another thread, and what is found is used when it is needed, not when it is ready.
+TEST(TerrainOcclusion, IsTheSameInEachFlight) {
+    const auto hiddenInFlight = [] {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        std::vector<unsigned int> hidden;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-5 * i, north = 0.1 + 2e-4 * i;
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, 500.0 + i), ecefDeg(north, 1.0, 500.0), {1, 0, 0}, 30.0));
+            hidden.push_back(globe.counts().occluded);
+        }
+        return hidden;
+    };
+    const std::vector<unsigned int> first = hiddenInFlight();
+    EXPECT_GT(*std::max_element(first.begin(), first.end()), 0u);
+    EXPECT_EQ(hiddenInFlight(), first);
+}
+
 // Compares a flight over tiles that leave the view one after the other with a new search for each view.
 TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
     RidgeGlobe globe(8000.0, 5);
@@ -466,31 +486,70 @@ TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
     FoundOcclusion first;
     first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
     first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
-    const auto isLeftOut = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from) {
+    first.eye.origin = {7e6, 0.0, 0.0};
+    first.nearReach = 1000.0;
+    // numbers: of the first tiles
+    const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
+                              const std::vector<FoundOcclusion::Tile>& come = {}) {
         FoundOcclusion found = from;
         for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
-        found.leaveOut(view, ellipsoid);
+        found.shown.insert(found.shown.end(), come.begin(), come.end());
+        const bool holds = found.follow(view, ellipsoid);
         EXPECT_EQ(found.tiles.size(), found.findings.size());
-        for (std::size_t i = 0; found.tiles == found.shown && i < shown.size(); ++i)
-            EXPECT_EQ(found.findings[i], from.findings[shown[i]]);
-        return found.tiles == found.shown;
+        EXPECT_EQ(found.tiles == found.shown, holds);
+        for (std::size_t i = 0; holds && i < found.tiles.size(); ++i)
+            EXPECT_EQ(found.findings[i], i < shown.size() ? from.findings[shown[i]] : Finding::Seen);
+        return holds;
     };
-    EXPECT_TRUE(isLeftOut({0, 2, 3}, first));
-    EXPECT_TRUE(isLeftOut({0, 1, 3}, first));
-    EXPECT_TRUE(isLeftOut({0, 3}, first));
-    EXPECT_FALSE(isLeftOut({1, 2, 3}, first));
-    EXPECT_FALSE(isLeftOut({0, 1, 2}, first));
-    // another one has come
-    FoundOcclusion changed = first;
-    changed.shown = {changed.tiles[0], tile(2, 3), changed.tiles[3]};
-    changed.leaveOut(view, ellipsoid);
-    EXPECT_EQ(changed.tiles, first.tiles);
+    EXPECT_TRUE(outlasts({0, 2, 3}, first));
+    EXPECT_TRUE(outlasts({0, 1, 3}, first));
+    EXPECT_TRUE(outlasts({0, 3}, first));
+    EXPECT_FALSE(outlasts({1, 2, 3}, first));
+    EXPECT_FALSE(outlasts({0, 1, 2}, first));
     // what may reach into the view by its margin, or by the bulge of its sides
     for (const auto& near : {tile(-1, -0.001, 200.0), tile(-1, 1e-4)}) {
         FoundOcclusion reaching = first;
         reaching.tiles[2] = near;
-        EXPECT_FALSE(isLeftOut({0, 1, 3}, reaching));
+        EXPECT_FALSE(outlasts({0, 1, 3}, reaching));
     }
+    // others come: beside what has gone out of view, or in its place
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, first, {tile(5, 6)}));
+    EXPECT_TRUE(outlasts({0, 1, 3}, first, {tile(-2, 1)}));
+    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(-4, 1)}));
+    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(5, 6), tile(-2.1, 1)}));
+    EXPECT_FALSE(outlasts({1, 2, 3}, first, {tile(1, 1.5)}));
+    // in views that follow, too
+    FoundOcclusion later = first;
+    later.shown = {first.tiles[0], first.tiles[3]};
+    EXPECT_TRUE(later.follow(view, ellipsoid));
+    later.shown.clear();
+    EXPECT_FALSE(outlasts({0, 1}, later, {tile(-4, 1)}));
+    EXPECT_TRUE(outlasts({0, 1}, later, {tile(-2, 1)}));
+    // too near for what is known of the near plane
+    FoundOcclusion close = first;
+    const osg::Vec3d above = ecefDeg(5.5, 1.5, 2000.0);
+    close.eye.origin = {above.x(), above.y(), above.z()};
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(5, 6)}));
+    close.eyes = {300e3, 0.0, 0.0};
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+}
+
+// As a camera turns, corners of its view come forward, and so does what the near plane may cut.
+TEST(TerrainOcclusion, ServesManyViewsOfATurn) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+    std::shared_ptr<const CoveredPicture> last;
+    int searches = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double north = 0.05 - 1e-3 * i;
+        (void)globe.drawsFarTile(
+            CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1 + north, 1.0, 1000.0), {1, 0, 0}, 30.0));
+        searches += statistics.covered() != last ? 1 : 0;
+        last = statistics.covered();
+    }
+    EXPECT_LE(searches, 40);
 }
 
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {

@@ -35,7 +35,7 @@ void InstalledTile::restoreSphere(osg::Node& node) const {
     if (_hasSwitchedOffSphere) node.setCullingActive(true);
 }
 
-void InstalledTile::setPlates(std::unique_ptr<const core::GroundPlates> plates) {
+void InstalledTile::setPlates(std::shared_ptr<const core::GroundPlates> plates) {
     static std::atomic<std::uint64_t> last{0};
     _plates = std::move(plates);
     _numberOfPlates = ++last;

@@ -145,9 +145,13 @@ public:
     [[nodiscard]] const core::GeodeticBin& place() const { return _place; }
 
     /// Sets the lowest altitudes of the tile's own mesh, by cells; null: they cannot be found.
-    void setPlates(std::unique_ptr<const core::GroundPlates> plates);
-    /// Returns: nullptr when they are unknown or the mesh has changed since.
-    [[nodiscard]] const core::GroundPlates* plates() const { return has(MeshChanged) ? nullptr : _plates.get(); }
+    void setPlates(std::shared_ptr<const core::GroundPlates> plates);
+    /// Returns: null when they are unknown or the mesh has changed since. Plates do not change: other threads may keep
+    /// them.
+    [[nodiscard]] const std::shared_ptr<const core::GroundPlates>& plates() const {
+        static const std::shared_ptr<const core::GroundPlates> unknown;
+        return has(MeshChanged) ? unknown : _plates;
+    }
     /// Returns: true the first time, unless setPlates() was called before.
     [[nodiscard]] bool askForPlates() {
         return _numberOfPlates == 0 && !_isAskedForPlates.exchange(true, std::memory_order_relaxed);
@@ -170,7 +174,7 @@ private:
     std::atomic<bool> _isAskedForPlates{false};
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
-    std::unique_ptr<const core::GroundPlates> _plates;
+    std::shared_ptr<const core::GroundPlates> _plates;
     std::uint64_t _numberOfPlates = 0;
     core::GeodeticBin _place;
 };
