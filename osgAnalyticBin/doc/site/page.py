@@ -28,6 +28,11 @@ def page(file):
     return (file.parent.name if file.stem == "README" else file.stem).lower()
 
 
+def on_a_line(match, file):
+    """Of a link to a folder, which the site has not, the text alone."""
+    return match[1] if (file.parent / match[2]).is_dir() else match[0].replace("\n", " ")
+
+
 def replaced(match, file):
     path, _, anchor = (match["target"] or "").partition("#")
     target = (file.parent / path).resolve() if path else file
@@ -42,7 +47,7 @@ def replaced(match, file):
 
 def lines(file):
     text = re.sub(r"\A(<!--.*?-->\s*)*", "", file.read_text(encoding="utf-8"))
-    text = re.sub(r"\[[^\[\]]+\]\(", lambda match: match[0].replace("\n", " "), text)  # texts of links stay on a line
+    text = re.sub(r"\[([^\[\]]+)\]\(([^()\s]+)\)", lambda match: on_a_line(match, file), text)
     anchors = slugs(text)
     fenced = False
     for number, line in enumerate(text.splitlines()):

@@ -155,8 +155,8 @@ def problems(folder, browser):
         if file.parent == folder and not file.stem.endswith("-members") and content["title"] in ("", *titles):
             yield f"{name}: its title \"{content['title']}\" is that of {titles.get(content['title'])}"
         titles[content["title"]] = name
-        if command := re.search(r"@(ref|section|image|code)\b", file.read_text(encoding="utf-8")):
-            yield f"{name}: Doxygen left {command[0]} in the text"
+        if left := re.search(r"@(ref|section|image|code)\b|\w\]\(\w+\)", file.read_text(encoding="utf-8")):
+            yield f"{name}: Doxygen left {left[0]} in the text"
     if len(pages) < 20:
         yield f"{folder}: only {len(pages)} pages"
     yield from missing(pages, folder)
