@@ -104,7 +104,7 @@ mathematics of the bins.")
 set(_documents "${CMAKE_INSTALL_DATADIR}/doc/osganalyticbin-doc")
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${_documents}" COMPONENT documents)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/osgAnalyticBin/doc" DESTINATION "${_documents}/osgAnalyticBin" COMPONENT documents
-        PATTERN "*.in" EXCLUDE)
+        PATTERN site EXCLUDE)
 
 # What Debian wants in every package's folder of documents.
 string(TIMESTAMP _changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <string>
 
+/// Bins on the tiles of paged terrain. Applications begin with installBins().
 namespace osgAnalyticBin {
 
 /// Puts bins on the tiles of databases: AnalyticBinCullCallbacks on the tiles of a globe, boxes on those of a map.

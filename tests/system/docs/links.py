@@ -6,6 +6,10 @@ import pathlib
 import re
 import sys
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "osgAnalyticBin/doc/site"))
+from page import slugs
+
 LINK = re.compile(r"\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]+)\)")
 SKIPPED = {"build", "demo", ".git"}
 
@@ -15,15 +19,6 @@ def without_code(text):
     text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
     text = re.sub(r"^ {4}.*$", "", text, flags=re.M)
     return re.sub(r"`[^`\n]*`", "", text)
-
-
-def anchors(text):
-    """Of the headings, as code hosts make them."""
-    found = []
-    for heading in re.findall(r"^#+ +(.*?)#*$", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), flags=re.M):
-        slug = re.sub(r"[^\w\- ]", "", heading.strip().lower().replace("`", "")).replace(" ", "-")
-        found.append(slug if slug not in found else f"{slug}-{found.count(slug)}")
-    return found
 
 
 def problems(root):
@@ -41,7 +36,7 @@ def problems(root):
                 yield f"{where}: there is no {target}"
             elif root not in file.resolve().parents:
                 yield f"{where}: {target} leaves the project"
-            elif anchor and anchor not in anchors(file.read_text(encoding="utf-8")):
+            elif anchor and anchor not in slugs(file.read_text(encoding="utf-8")):
                 yield f"{where}: no heading makes the anchor {target}"
 
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+/// The mathematics of bins, without OpenSceneGraph.
 namespace osgAnalyticBin::core {
 
 /// Where a bin lies with respect to a plane or to a set of planes. Outside and Inside are proofs, truncation and

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+/// Reads all files of a database and finds the bins of its tiles.
 namespace osgAnalyticBin::indexing {
 
 /// The records of a database's files, by their names.

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Plain data that the classes of the core own and the kernels read: numbers alone, so that a kernel can be compiled
-/// for several instruction sets without carrying a class along.
+// Plain data that the classes of the core own and the kernels read: numbers alone, so that a kernel can be compiled
+// for several instruction sets without carrying a class along.
 namespace osgAnalyticBin::core {
 
 /// Four planes, coordinate by coordinate. A lane without a plane is zero.
