@@ -259,6 +259,7 @@ template <class Table>
 void eachField(Table& table, Expectation& expectation) {
     table("spheres", expectation.spheres);
     table("bins", expectation.bins);
+    table("culled", expectation.culled);
 }
 
 struct Writing {
@@ -334,19 +335,40 @@ void readLine(const std::string& text, NamedScene& scene) {
     }
 }
 
+// The text with each of the values between which bars stand.
+std::vector<std::string> alternatives(const std::string& text) {
+    const std::size_t bar = text.find('|');
+    if (bar == std::string::npos) return {text};
+    const std::size_t begin = text.find_last_of("= \n", bar) + 1, end = text.find_first_of(" \n", bar);
+    std::istringstream values(text.substr(begin, end - begin));
+    std::vector<std::string> all;
+    std::string value;
+    while (std::getline(values, value, '|')) {
+        for (const std::string& one : alternatives(text.substr(0, begin) + value + text.substr(end)))
+            all.push_back(one);
+    }
+    return all;
+}
+
 }  // namespace
 
-NamedScene readScene(std::istream& in) {
-    NamedScene scene;
-    std::string text;
-    while (std::getline(in, text)) {
-        try {
-            readLine(text, scene);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(std::string(error.what()) + " in: " + text);
+std::vector<NamedScene> readScenes(std::istream& in) {
+    std::ostringstream all;
+    all << in.rdbuf();
+    std::vector<NamedScene> scenes;
+    for (const std::string& text : alternatives(all.str())) {
+        NamedScene& scene = scenes.emplace_back();
+        std::istringstream lines(text);
+        std::string line;
+        while (std::getline(lines, line)) {
+            try {
+                readLine(line, scene);
+            } catch (const std::runtime_error& error) {
+                throw std::runtime_error(std::string(error.what()) + " in: " + line);
+            }
         }
     }
-    return scene;
+    return scenes;
 }
 
 std::string toText(const Part& part) {

@@ -161,17 +161,28 @@ std::vector<std::string> sceneFiles(const std::vector<std::string>& paths) {
 }
 
 // Returns: what is wrong, else nothing.
-std::string runFile(const std::string& file, bool describes) {
-    std::ifstream in(file);
-    if (!in) return "there is no such file";
-    const NamedScene scene = readScene(in);
+std::string wrongWith(const NamedScene& scene, bool describes) {
     RunTotals totals;
     const auto failure = run(scene.description, totals);
-    const Expectation found{static_cast<int>(totals.delivered), static_cast<int>(totals.drawn)};
-    if (describes) std::printf("# %s\n%s%s\n", file.c_str(), toText(scene.description).c_str(), toText(found).c_str());
+    const int spheres = static_cast<int>(totals.delivered), bins = static_cast<int>(totals.drawn);
+    const std::string found = toText(Expectation{spheres, bins});
+    if (describes) std::printf("%s%s\n", toText(scene.description).c_str(), found.c_str());
     if (failure) return "frame " + std::to_string(failure->frame) + ": " + failure->signature + ": " + failure->text;
-    if (scene.expected && *scene.expected == found) return {};
-    return "it delivers: " + toText(found);
+    if (scene.expected && scene.expected->holdsFor(spheres, bins)) return {};
+    return "it delivers: " + found;
+}
+
+// All scenes of a file.
+std::string wrongWith(const std::string& file, bool describes) {
+    std::ifstream in(file);
+    if (!in) return "there is no such file";
+    std::string first;
+    for (const NamedScene& scene : readScenes(in)) {
+        const std::string wrong = wrongWith(scene, describes);
+        if (!wrong.empty() && first.empty()) first = wrong + '\n' + toText(scene.description);
+        if (!first.empty() && !describes) break;
+    }
+    return first;
 }
 
 int runFiles(const Arguments& arguments) {
@@ -181,7 +192,7 @@ int runFiles(const Arguments& arguments) {
         std::snprintf(presentScene, sizeof presentScene, "%s\n", std::filesystem::path(file).stem().c_str());
         std::string wrong;
         try {
-            wrong = runFile(file, arguments.describes);
+            wrong = wrongWith(file, arguments.describes);
         } catch (const std::runtime_error& error) {
             wrong = error.what();
         }
