@@ -335,6 +335,19 @@ TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
     EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
 }
 
+TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
+    installBins(*terrain);
+    const osg::ref_ptr<osgTerrain::Terrain> clone = osg::clone(terrain.get(), osg::CopyOp::DEEP_COPY_NODES);
+    setCullOptions(*clone, {});
+    update(*clone);
+    clone->setVerticalScale(10.0f);
+    update(*clone);
+    ASSERT_NE(installedOn(*clone->getChild(19)), nullptr);
+    EXPECT_EQ(installedOn(*clone->getChild(19))->getTerrainShape()->verticalScale, 10.0);
+    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
+}
+
 TEST(Clones, ThatShareCallbacksStayVisible) {
     MeshGlobe globe;
     // OSG tells nothing of what is drawn: bins alone do

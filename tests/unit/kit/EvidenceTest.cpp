@@ -155,6 +155,28 @@ TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
     }
 }
 
+struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
+    osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
+};
+
+TEST(AddedContent, IsNoticedWhereTheApplicationComputesTheBoundOfATile) {
+    for (const bool isOwn : {false, true}) {
+        MeshGlobe globe;
+        installBins(*globe.root);
+        const osg::Vec3d at = ecefDeg(22.5, -22.5, 300000.0);
+        const CullView view = beside(at);
+        EXPECT_FALSE(globe.draws(*globe.tiles[19], view));
+        globe.tiles[19]->setComputeBoundingSphereCallback(isOwn ? new OwnBound : nullptr);
+        const osg::ref_ptr<osg::Node> tower = makeTower(at);
+        globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
+        globe.tiles[19]->setRange(1, 0.0f, 1e10f);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_TRUE(globe.draws(*tower, view)) << isOwn << i;
+            update(*globe.root);
+        }
+    }
+}
+
 }  // namespace
 
 }  // namespace osgAnalyticBin::test
