@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A scene in numbers: what it is built of, what happens in which frame, and what looks at it. Everything random is in
-// here, so that a part can be left out and the rest stays as it was.
+// here, so that a part can be left out and the rest stays as it was. As text: SceneText.h.
 
 #pragma once
 
@@ -225,11 +225,5 @@ constexpr int kFixedCameras = 9;
 /// Whether a vertical scale is set. OSG's spheres of osgTerrain tiles do not follow it: without bins visible tiles are
 /// culled.
 [[nodiscard]] bool hasScaledTerrain(const Description& description);
-
-[[nodiscard]] bool isStateWithinMesh(const Part& part);
-
-/// "a tower of 12 km on the globe, from frame 2".
-[[nodiscard]] std::string inWords(const Part& part);
-[[nodiscard]] std::string inWords(const Description& description);
 
 }  // namespace osgAnalyticBin::test

@@ -362,6 +362,7 @@ private:
 
     void count(const Delivery& without, const Delivery& with) {
         _totals.delivered += without.drawables.size();
+        _totals.drawn += with.drawables.size();
         for (const auto& [key, delivered] : without.drawables)
             if (with.drawables.count(key) == 0) ++_totals.lost;
     }

@@ -21,6 +21,7 @@ struct Failure {
 struct RunTotals {
     std::size_t delivered = 0;  ///< drawables, without bins
     std::size_t lost = 0;       ///< of them, not delivered with bins
+    std::size_t drawn = 0;      ///< drawables, with bins
     std::size_t undone = 0;     ///< comparisons after bins were taken off
     PictureTotals pictures;
 };

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Random scenes, culled with bins and without: what is seen without bins is drawn with them, and bins that are taken
-// off leave nothing behind. tests/README.md tells how to run it.
+// Scenes of files and random ones, culled with bins and without: what is seen without bins is drawn with them, and bins
+// that are taken off leave nothing behind. tests/README.md tells how to run it.
 
 #include "Generator.h"
+#include "SceneText.h"
 #include "Shrinker.h"
 
 #include <osg/Notify>
@@ -19,6 +20,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -43,23 +46,25 @@ struct Arguments {
     bool hasEverything = false;
     bool hasBins = true;
     std::vector<std::string> leftOut;
+    std::vector<std::string> files;
     bool isValid = true;
 };
 
 // Kinds of parts that doc/limits.md excludes: they are left out without --everything.
-constexpr std::array kExcluded{"a subclass of CullVisitor"};
+constexpr std::array kExcluded{"visitor-leaves"};
 // With it OpenGL does not clear the buffers of the next camera either: pictures depend on what is drawn last.
-constexpr const char* kNotInPictures = "rasterizer discard";
+constexpr const char* kNotInPictures = "rasterizer-discard";
 
 constexpr const char* kUsage =
     "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--leave-out TEXT]\n"
-    "                      [--no-shrink] [--pictures] [--everything] [--no-bins]\n"
+    "                      [--no-shrink] [--pictures] [--everything] [--no-bins] [FILE.scene or FOLDER]...\n"
+    "  FILE, FOLDER  runs the scenes of these files, in place of random ones\n"
     "  --scenes N    runs N scenes (default 500), with seeds S, S + 1, ...\n"
     "  --seed S      the first seed (default 1)\n"
     "  --only SEED   runs one scene\n"
-    "  --describe    says what is in the scenes\n"
+    "  --describe    prints the scenes as files have them\n"
     "  --failures N  ends after N failures (default 10)\n"
-    "  --leave-out TEXT  leaves out all parts in whose description TEXT is; may be given several times\n"
+    "  --leave-out TEXT  leaves out all parts in whose line TEXT is; may be given several times\n"
     "  --everything  leaves nothing out of which faults are known\n"
     "  --no-bins     compares scenes without bins with themselves: what fails is a fault of this program\n"
     "  --no-shrink   prints scenes that fail as they are\n"
@@ -95,6 +100,8 @@ Arguments parse(int count, char** values) {
             result.shrinks = false;
         } else if (name == "--pictures") {
             result.hasPictures = true;
+        } else if (name.rfind("--", 0) != 0) {
+            result.files.push_back(name);
         } else {
             result.isValid = false;
         }
@@ -118,7 +125,7 @@ void onCrash(int signal) {
 
 void leaveOut(const std::vector<std::string>& texts, Description& description) {
     const auto isLeftOut = [&](const Part& part) {
-        const std::string words = inWords(part);
+        const std::string words = toText(part);
         return std::any_of(texts.begin(), texts.end(),
                            [&](const std::string& text) { return words.find(text) != std::string::npos; });
     };
@@ -132,10 +139,69 @@ void report(const Description& description, const Failure& failure, bool shrinks
                 failure.frame, failure.signature.c_str(), failure.text.c_str());
     std::fflush(stdout);
     const Shrunk shrunk = shrinks ? shrink(description, failure, painter) : Shrunk{description, failure};
-    std::printf("%s", inWords(shrunk.description).c_str());
+    std::printf("%s", toText(shrunk.description).c_str());
     if (shrinks) std::printf("  shrunk, it fails in frame %d: %s\n", shrunk.failure.frame, shrunk.failure.text.c_str());
     std::printf("  again: %s --only %llu\n\n", program, static_cast<unsigned long long>(description.seed));
     std::fflush(stdout);
+}
+
+// The files themselves, and those that are in folders.
+std::vector<std::string> sceneFiles(const std::vector<std::string>& paths) {
+    namespace fs = std::filesystem;
+    std::vector<std::string> files;
+    for (const std::string& path : paths) {
+        if (!fs::is_directory(path)) files.push_back(path);
+        if (!fs::is_directory(path)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+            if (entry.path().extension() == ".scene") files.push_back(entry.path().string());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// Returns: what is wrong, else nothing.
+std::string wrongWith(const NamedScene& scene, bool describes) {
+    RunTotals totals;
+    const auto failure = run(scene.description, totals);
+    const int spheres = static_cast<int>(totals.delivered), bins = static_cast<int>(totals.drawn);
+    const std::string found = toText(Expectation{spheres, bins});
+    if (describes) std::printf("%s%s\n", toText(scene.description).c_str(), found.c_str());
+    if (failure) return "frame " + std::to_string(failure->frame) + ": " + failure->signature + ": " + failure->text;
+    if (scene.expected && scene.expected->holdsFor(spheres, bins)) return {};
+    return "it delivers: " + found;
+}
+
+// All scenes of a file.
+std::string wrongWith(const std::string& file, bool describes) {
+    std::ifstream in(file);
+    if (!in) return "there is no such file";
+    std::string first;
+    for (const NamedScene& scene : readScenes(in)) {
+        const std::string wrong = wrongWith(scene, describes);
+        if (!wrong.empty() && first.empty()) first = wrong + '\n' + toText(scene.description);
+        if (!first.empty() && !describes) break;
+    }
+    return first;
+}
+
+int runFiles(const Arguments& arguments) {
+    const std::vector<std::string> files = sceneFiles(arguments.files);
+    int failures = 0;
+    for (const std::string& file : files) {
+        std::snprintf(presentScene, sizeof presentScene, "%s\n", std::filesystem::path(file).stem().c_str());
+        std::string wrong;
+        try {
+            wrong = wrongWith(file, arguments.describes);
+        } catch (const std::runtime_error& error) {
+            wrong = error.what();
+        }
+        if (wrong.empty()) continue;
+        std::printf("%s FAILS in %s\n", file.c_str(), wrong.c_str());
+        ++failures;
+    }
+    std::printf("%zu named scenes, %d failures\n", files.size(), failures);
+    return failures == 0 && !files.empty() ? 0 : 1;
 }
 
 // Drawables are drawn in the order of the traversal: where surfaces coincide, the same one wins with bins and without.
@@ -166,6 +232,7 @@ int main(int argc, char** argv) {
         std::fputs("the serializers of osgAnalyticBin are not in " LIBRARY_FOLDER "\n", stderr);
         return 2;
     }
+    if (!arguments.files.empty()) return runFiles(arguments);
     const std::unique_ptr<Painter> painter = arguments.hasPictures ? makePainter() : nullptr;
     if (arguments.hasPictures && !painter) return kSkipped;
     const auto start = std::chrono::steady_clock::now();
@@ -179,8 +246,7 @@ int main(int argc, char** argv) {
         description.hasBins = arguments.hasBins;
         leaveOut(arguments.leftOut, description);
         if (painter) description = picturable(std::move(description));
-        if (arguments.describes)
-            std::printf("seed %llu\n%s", static_cast<unsigned long long>(seed), inWords(description).c_str());
+        if (arguments.describes) std::printf("%s", toText(description).c_str());
         const auto failure = run(description, totals, painter.get());
         if (!failure) continue;
         ++failures;

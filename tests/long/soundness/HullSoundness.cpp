@@ -10,6 +10,7 @@
 #include "BoxBins.h"
 #include "FrustumHull.h"
 #include "HorizonPoint.h"
+#include "LongRun.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
@@ -23,18 +24,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <support/Planets.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
-#include <thread>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -55,13 +52,6 @@ using rivals::OrientedBoxBin;
 using rivals::ReverseBin;
 
 constexpr std::uint64_t kTrialsPerChunk = 10000;
-
-struct Options {
-    std::uint64_t trials = 10000000;
-    std::uint64_t seedValue = seed();
-    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    bool areTies = false;
-};
 
 enum Test : std::size_t {
     kHorizon,
@@ -85,6 +75,12 @@ struct Counts {
     void note(Test test, bool isWrong) {
         ++trials[test];
         wrong[test] += isWrong ? 1 : 0;
+    }
+    void add(const Counts& other) {
+        for (std::size_t t = 0; t < kTests; ++t) {
+            trials[t] += other.trials[t];
+            wrong[t] += other.wrong[t];
+        }
     }
 };
 
@@ -250,76 +246,29 @@ void tryTies(Random& random, Counts& counts) {
     tryTiedSight(random, tie, counts);
 }
 
-// Chunks have streams of their own: the counts do not depend on the number of threads.
-void work(const Options& options, std::atomic<std::uint64_t>& nextChunk, Counts& counts) {
-    const std::uint64_t chunks = (options.trials + kTrialsPerChunk - 1) / kTrialsPerChunk;
-    for (std::uint64_t chunk = nextChunk++; chunk < chunks; chunk = nextChunk++) {
-        Random random(chunk + 1, options.seedValue);
-        const std::uint64_t trials = std::min(kTrialsPerChunk, options.trials - chunk * kTrialsPerChunk);
+int run(int argc, char** argv) {
+    const auto run = longRunOf(argc, argv, "--ties");
+    if (!run) return EXIT_FAILURE;
+    const Stopwatch watch;
+    const auto check = [&run](Random& random, std::uint64_t trials, Counts& own) {
         for (std::uint64_t i = 0; i < trials; ++i) {
-            if (options.areTies) {
-                tryTies(random, counts);
+            if (run->hasFlag) {
+                tryTies(random, own);
                 continue;
             }
-            trySight(random, counts);
-            tryFrustum(random, counts);
+            trySight(random, own);
+            tryFrustum(random, own);
         }
-    }
-}
-
-Counts runAll(const Options& options) {
-    std::vector<Counts> counts(options.threads);
-    std::atomic<std::uint64_t> nextChunk{0};
-    std::vector<std::thread> threads;
-    for (Counts& c : counts) threads.emplace_back([&] { work(options, nextChunk, c); });
-    for (std::thread& thread : threads) thread.join();
-    Counts total;
-    for (const Counts& c : counts) {
-        for (std::size_t t = 0; t < kTests; ++t) {
-            total.trials[t] += c.trials[t];
-            total.wrong[t] += c.wrong[t];
-        }
-    }
-    return total;
-}
-
-int usage(int status) {
-    std::printf("osganalyticbin_hull_soundness [--ties] [--trials N] [--seed S] [--threads T]\n");
-    return status;
-}
-
-int run(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string name = argv[i];
-        if (name == "--help") return usage(EXIT_SUCCESS);
-        if (name == "--ties") {
-            options.areTies = true;
-            continue;
-        }
-        if (i + 1 == argc) return usage(EXIT_FAILURE);
-        const std::uint64_t value = std::strtoull(argv[++i], nullptr, 0);
-        if (name == "--trials" && value > 0) {
-            options.trials = value;
-        } else if (name == "--seed") {
-            options.seedValue = value;
-        } else if (name == "--threads" && value > 0 && value <= 1024) {
-            options.threads = static_cast<unsigned>(value);
-        } else {
-            return usage(EXIT_FAILURE);
-        }
-    }
-    const auto start = std::chrono::steady_clock::now();
-    const Counts counts = runAll(options);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    };
+    const Counts counts = runChunks<Counts>(*run, kTrialsPerChunk, check);
     std::printf("%-22s %12s %8s\n", "test", "trials", "wrong");
     bool sound = true;
     for (std::size_t t = 0; t < kTests; ++t) {
         std::printf("%-22s %12" PRIu64 " %8" PRIu64 "\n", kTestNames[t], counts.trials[t], counts.wrong[t]);
-        sound = sound && counts.wrong[t] == 0 && 2 * counts.trials[t] >= options.trials;
+        sound = sound && counts.wrong[t] == 0 && 2 * counts.trials[t] >= run->trials;
     }
-    std::printf("%s%s; seed %" PRIu64 ", %u threads, %.1f s\n", options.areTies ? "ties: " : "",
-                sound ? "sound" : "UNSOUND", options.seedValue, options.threads, seconds.count());
+    std::printf("%s%s; seed %" PRIu64 ", %u threads, %.1f s\n", run->hasFlag ? "ties: " : "",
+                sound ? "sound" : "UNSOUND", run->seedValue, run->threads, watch.seconds());
     return sound ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -5,30 +5,20 @@
 // all eyes in a box. Casts rays in long double to all that is said to be hidden, and fails if a single ray gets there
 // without meeting a triangle.
 
+#include "LongRun.h"
 #include "OcclusionScene.h"
 
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cinttypes>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
 #include <thread>
 #include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-struct Options {
-    std::uint64_t trials = 1000000;
-    std::uint64_t seedValue = seed();
-    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    bool hasBoxes = false;  // each search is for a box of eyes
-};
 
 struct Counts {
     std::atomic<std::uint64_t> trials{0}, wrong{0}, scenes{0}, quarters{0}, hidden{0};
@@ -37,10 +27,10 @@ struct Counts {
 // Rays to one part of a tile, and from one of its eyes.
 constexpr int kRays = 200, kRaysOfEye = 20;
 
-void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
-    Random random(1700 + number, options.seedValue);
+void tryScene(std::uint64_t number, const LongRun& run, Counts& counts) {
+    Random random(1700 + number, run.seedValue);
     const OcclusionScene scene(random, true, number % 4 == 3);
-    const glm::dvec3 eyes = options.hasBoxes ? randomEyes(random, scene) : glm::dvec3(0.0);
+    const glm::dvec3 eyes = run.hasFlag ? randomEyes(random, scene) : glm::dvec3(0.0);
     core::HorizonBuffer buffer = bufferOf(scene, eyes);
     const std::size_t cells = random.pick(std::array<std::size_t, 4>{1, 2, 4, 8});
     for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
@@ -51,10 +41,10 @@ void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
         if (outline.isBeside || !buffer.hides(outline)) continue;
         ++counts.hidden;
         for (int ray = 0; ray < kRays; ++ray) {
-            const bool isNewEye = options.hasBoxes && ray % kRaysOfEye == 0;
+            const bool isNewEye = run.hasFlag && ray % kRaysOfEye == 0;
             if (isNewEye) isAboveGround = moveEye(seen, random, frameOf(scene), eyes);
             // what an eye of a box sees and the one in the middle does not is at the top
-            const bool isTop = options.hasBoxes && random.chance(0.7);
+            const bool isTop = run.hasFlag && random.chance(0.7);
             const RealVector point = isTop ? seen.topOf(random, part) : seen.pointIn(random, part);
             if (!isAboveGround || !isBeforeTheCamera(seen, point)) continue;
             ++counts.trials;
@@ -66,46 +56,22 @@ void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
     ++counts.scenes;
 }
 
-Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string name = argv[i];
-        if (name == "--boxes") {
-            options.hasBoxes = true;
-            --i;
-            continue;
-        }
-        const std::uint64_t value = i + 1 < argc ? std::strtoull(argv[i + 1], nullptr, 0) : 0;
-        if (name == "--trials" && value > 0) {
-            options.trials = value;
-        } else if (name == "--seed" && i + 1 < argc) {
-            options.seedValue = value;
-        } else if (name == "--threads" && value > 0) {
-            options.threads = static_cast<unsigned>(value);
-        } else {
-            std::printf("osganalyticbin_occlusion_soundness [--boxes] [--trials N] [--seed S] [--threads T]\n");
-            std::exit(2);
-        }
-    }
-    return options;
-}
-
 int run(int argc, char** argv) {
-    const Options options = parse(argc, argv);
-    const auto start = std::chrono::steady_clock::now();
+    const auto run = longRunOf(argc, argv, "--boxes");
+    if (!run) return 2;
+    const Stopwatch watch;
     Counts counts;
     std::atomic<std::uint64_t> next{0};
     const auto work = [&] {
-        while (counts.trials < options.trials) tryScene(next++, options, counts);
+        while (counts.trials < run->trials) tryScene(next++, *run, counts);
     };
     std::vector<std::thread> threads;
-    for (unsigned i = 0; i < options.threads; ++i) threads.emplace_back(work);
+    for (unsigned i = 0; i < run->threads; ++i) threads.emplace_back(work);
     for (std::thread& thread : threads) thread.join();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::printf("%" PRIu64 " rays to %" PRIu64 " hidden quarters of %" PRIu64 ", in %" PRIu64
                 " scenes and %.0f s: %" PRIu64 " wrong\n",
                 counts.trials.load(), counts.hidden.load(), counts.quarters.load(), counts.scenes.load(),
-                seconds.count(), counts.wrong.load());
+                watch.seconds(), counts.wrong.load());
     return counts.wrong == 0 ? 0 : 1;
 }
 

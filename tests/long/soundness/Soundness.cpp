@@ -6,6 +6,7 @@
 // the exact bin has a single wrong verdict, or a distance range that does not hold the true one.
 
 #include "ComparisonBins.h"
+#include "LongRun.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -13,18 +14,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <support/RandomBins.h>
-#include <thread>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -41,19 +37,10 @@ using core::Side;
 using rivals::CornersBin;
 using rivals::PaperBin;
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint64_t kTrialsPerChunk = 20000;
 constexpr std::size_t kPlanesPerBin = 4;
 // The comparison rules are blamed for more than rounding only, in metres.
 constexpr Real kComparisonTolerance = 1e-6L;
-constexpr auto kQuietTime = std::chrono::seconds(2);
-
-struct Options {
-    std::uint64_t trials = 10000000;
-    std::uint64_t seedValue = seed();
-    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-};
 
 struct Verdicts {
     std::uint64_t falseOutside = 0;
@@ -122,7 +109,12 @@ struct Row {
 // Levels first, then the kinds of bin that are no tiles.
 constexpr std::size_t kLevels = kDeepestLevel + 1;
 constexpr std::size_t kRows = kLevels + kBinKinds.size() - 1;
-using Table = std::array<Row, kRows>;
+struct Table {
+    void add(const Table& other) {
+        for (std::size_t row = 0; row < kRows; ++row) rows[row].add(other.rows[row]);
+    }
+    std::array<Row, kRows> rows;
+};
 
 std::string nameOfRow(std::size_t row) {
     if (row >= kLevels) return nameOf(kBinKinds[row - kLevels + 1]);
@@ -169,54 +161,11 @@ void tryOneBin(Random& random, std::size_t rowIndex, Row& row) {
     }
 }
 
-// Chunks have streams of their own: the table does not depend on the number of threads.
-void work(const Options& options, std::atomic<std::uint64_t>& nextChunk, Table& table) {
-    const std::uint64_t chunks = (options.trials + kTrialsPerChunk - 1) / kTrialsPerChunk;
-    for (std::uint64_t chunk = nextChunk++; chunk < chunks; chunk = nextChunk++) {
-        Random random(chunk + 1, options.seedValue);
-        const std::uint64_t trials = std::min(kTrialsPerChunk, options.trials - chunk * kTrialsPerChunk);
-        for (std::uint64_t i = 0; i < trials; i += kPlanesPerBin) {
-            const std::size_t row = (i / kPlanesPerBin) % kRows;
-            tryOneBin(random, row, table[row]);
-        }
+void check(Random& random, std::uint64_t trials, Table& table) {
+    for (std::uint64_t i = 0; i < trials; i += kPlanesPerBin) {
+        const std::size_t row = (i / kPlanesPerBin) % kRows;
+        tryOneBin(random, row, table.rows[row]);
     }
-}
-
-void showProgress(const Options& options, const std::atomic<std::uint64_t>& nextChunk,
-                  const std::atomic<unsigned>& running) {
-    Clock::time_point next = Clock::now() + kQuietTime;
-    bool shown = false;
-    while (running.load() != 0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        if (Clock::now() < next) continue;
-        next = Clock::now() + std::chrono::seconds(1);
-        const std::uint64_t done = std::min(options.trials, nextChunk.load() * kTrialsPerChunk);
-        std::fprintf(stderr, "\r%3.0f %% of %" PRIu64 " trials",
-                     100.0 * static_cast<double>(done) / static_cast<double>(options.trials), options.trials);
-        std::fflush(stderr);
-        shown = true;
-    }
-    if (shown) std::fputc('\n', stderr);
-}
-
-Table runAll(const Options& options) {
-    std::vector<Table> tables(options.threads);
-    std::atomic<std::uint64_t> nextChunk{0};
-    std::atomic<unsigned> running{options.threads};
-    std::vector<std::thread> threads;
-    for (Table& table : tables) {
-        threads.emplace_back([&] {
-            work(options, nextChunk, table);
-            --running;
-        });
-    }
-    showProgress(options, nextChunk, running);
-    for (std::thread& thread : threads) thread.join();
-    Table total;
-    for (const Table& table : tables) {
-        for (std::size_t row = 0; row < kRows; ++row) total[row].add(table[row]);
-    }
-    return total;
 }
 
 void printSound(const Row& row, const SoundMethod& method) {
@@ -247,8 +196,8 @@ bool printTable(const Table& table) {
                 "loose%", "slack m", "out", "in", "loose%", "slack m", "out", "in", "out", "in");
     Row total;
     for (std::size_t row = 0; row < kRows; ++row) {
-        printRow(nameOfRow(row), table[row]);
-        total.add(table[row]);
+        printRow(nameOfRow(row), table.rows[row]);
+        total.add(table.rows[row]);
     }
     printRow("all", total);
     std::printf(
@@ -258,34 +207,14 @@ bool printTable(const Table& table) {
     return printVerdict("exact", total.exact) && quadraticSound;
 }
 
-int usage(int status) {
-    std::printf("osganalyticbin_soundness [--trials N] [--seed S] [--threads T]\n");
-    return status;
-}
-
 int run(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        if (std::strcmp(argv[i], "--help") == 0) return usage(EXIT_SUCCESS);
-        if (i + 1 == argc) return usage(EXIT_FAILURE);
-        const std::string name = argv[i];
-        const std::uint64_t value = std::strtoull(argv[++i], nullptr, 0);
-        if (name == "--trials" && value > 0) {
-            options.trials = value;
-        } else if (name == "--seed") {
-            options.seedValue = value;
-        } else if (name == "--threads" && value > 0 && value <= 1024) {
-            options.threads = static_cast<unsigned>(value);
-        } else {
-            return usage(EXIT_FAILURE);
-        }
-    }
-    const Clock::time_point start = Clock::now();
-    const Table table = runAll(options);
-    const std::chrono::duration<double> seconds = Clock::now() - start;
+    const auto run = longRunOf(argc, argv);
+    if (!run) return EXIT_FAILURE;
+    const Stopwatch watch;
+    const Table table = runChunks<Table>(*run, kTrialsPerChunk, check);
     const bool sound = printTable(table);
-    std::printf("%" PRIu64 " trials, seed %" PRIu64 ", %u threads, %.1f s\n", options.trials, options.seedValue,
-                options.threads, seconds.count());
+    std::printf("%" PRIu64 " trials, seed %" PRIu64 ", %u threads, %.1f s\n", run->trials, run->seedValue, run->threads,
+                watch.seconds());
     return sound ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -27,24 +27,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-TEST(Instances, AreDrawnInAllOfTheirPlaces) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::PagedLOD> instance = makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 4000.0), "no.osgb");
-    for (const double turn : {0.0, 120.0}) {
-        const osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(turn), 0, 0, 1));
-        place->addChild(instance);
-        globe.root->addChild(place);
-    }
-    for (const bool isInstalled : {false, true}) {
-        if (isInstalled) installBins(*globe.root);
-        EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 2.5))) << isInstalled;
-        EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5))) << isInstalled;
-    }
-    EXPECT_FALSE(globe.drawsAntipode());
-    EXPECT_EQ(installedOn(*instance), nullptr) << "no bin holds for all of its places";
-}
-
 TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
     MeshGlobe globe;
     const osg::ref_ptr<osg::PagedLOD> instance = makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 4000.0), "no.osgb");
@@ -56,37 +38,6 @@ TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
     globe.root->addChild(place);
     EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 2.5)));
     EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5)));
-}
-
-TEST(AddedContent, OfAnApplicationsGroupIsDrawnAtOnce) {
-    FiledGlobe globe;
-    EXPECT_EQ(installedOn(*globe.group), nullptr) << "the application's group is no tile";
-    const osg::ref_ptr<osg::Node> vehicle = makeTower(ecefDeg(20, 20, 30000.0));
-    globe.group->addChild(vehicle);
-    EXPECT_TRUE(globe.draws(*vehicle, beside(ecefDeg(20, 20, 30000.0))));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*vehicle, beside(ecefDeg(20, 20, 30000.0))));
-    // and follows it
-    vehicle->asTransform()->asMatrixTransform()->setMatrix(osg::Matrixd::translate(ecefDeg(20, 60, 1000.0)));
-    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 60, 3000.0, 5.0)));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 60, 3000.0, 5.0)));
-}
-
-// A leaf of a file is a transform, whose bin stands on a group above it.
-TEST(AddedContent, IsALeafThatIsMovedByItsOwnTransform) {
-    FiledGlobe globe;
-    osg::Node* leaf = globe.group->getChild(0);
-    while (!leaf->asTransform()) leaf = leaf->asGroup()->getChild(0);
-    const osg::Vec3d place = leaf->getBound().center();
-    osg::MatrixTransform& transform = *leaf->asTransform()->asMatrixTransform();
-    EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0)));
-    const osg::Matrixd away = osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1));
-    transform.setMatrix(transform.getMatrix() * away);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * away * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0))) << i;
-        update(*globe.root);
-    }
 }
 
 TEST(AddedContent, IsATileThatIsATransformAndMoves) {
@@ -240,16 +191,6 @@ TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {
     }
 }
 
-TEST(AddedContent, OfAPagedTileItselfIsDrawn) {
-    FiledGlobe globe;
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Node> tower = makeTower(place);
-    globe.tile->addChild(tower, 0.0f, 1e10f);
-    EXPECT_TRUE(globe.draws(*tower, beside(place)));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*tower, beside(place)));
-}
-
 TEST(AddedContent, ThatCameWithAFileIsDrawn) {
     FiledGlobe globe;
     const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
@@ -295,53 +236,6 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
     const osg::ref_ptr<osg::Node> tower = makeTower(place);
     globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
     EXPECT_TRUE(globe.draws(*tower, beside(place)));
-}
-
-TEST(AddedContent, IsNoticedWhereVerticesRiseWithinTheBoxOfTheMesh) {
-    FiledGlobe globe;
-    auto* const vertices = dynamic_cast<osg::Vec3Array*>(drawableOf(*globe.group)->asGeometry()->getVertexArray());
-    ASSERT_NE(vertices, nullptr);
-    (void)globe.root->getBound();
-    // a post in the middle, towards the corner of the tile's box
-    const osg::Vec3d up = ecefDeg(20, 20, 1.0) / ecefDeg(20, 20, 1.0).length();
-    (*vertices)[40] += osg::Vec3(up * 12000.0);
-    vertices->dirty();
-    drawableOf(*globe.group)->dirtyBound();
-    (void)globe.root->getBound();
-    update(*globe.root);
-    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 12000.0);
-}
-
-TEST(AddedContent, IsHeldByBinsThatAreInstalledAgain) {
-    FiledGlobe globe;
-    osg::Node& leaf = *globe.group->getChild(0)->asGroup()->getChild(0);
-    setStoredBin(*globe.tile, AnalyticBin(extentsDeg(10, 50, 0, 40).withAltitude({-40000, 300})));
-    installBins(*globe.root);
-    // within what coarse meshes are allowed to leave a stored bin by
-    const osg::Vec3d place = ecefDeg(20, 20, 2000.0);
-    const osg::ref_ptr<osg::Node> tower = makeTower(place * osg::Matrixd::inverse(leaf.getWorldMatrices()[0]));
-    leaf.asGroup()->addChild(tower);
-    for (int round = 0; round < 2; ++round) {
-        installBins(*globe.root);
-        update(*globe.root);
-        const osg::Vec3d up = place / place.length();
-        osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
-        east.normalize();
-        // from below, so that the terrain is outside
-        const CullView view = CullView::lookAt(place - east * 5000.0 - up * 300.0, place, up, 2.0);
-        EXPECT_TRUE(globe.draws(*tower, view)) << round;
-    }
-}
-
-TEST(AddedContent, IsKnownToASceneThatIsSavedAtOnce) {
-    FiledGlobe globe;
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    globe.group->addChild(makeTower(place));
-    ASSERT_TRUE(osgDB::writeNodeFile(*globe.root, globe.folder / "saved.osgb"));
-    const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(globe.folder / "saved.osgb");
-    ASSERT_TRUE(back);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    EXPECT_EQ(cull(*back, beside(place), *visitor).drawn.size(), 1u);
 }
 
 // A Terrain of 32 flat osgTerrain tiles below PagedLODs.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // How applications show a globe on which bins are installed: state, masks, callbacks, eyes below the ground; and what
-// is left when bins are taken off. Content: ApplicationContentTest.cpp.
+// is left when bins are taken off. Content: ApplicationContentTest.cpp. States of all kinds: tests/scenes.
 
 #include "ApplicationGlobe.h"
 
@@ -11,12 +11,9 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
-#include <osg/AlphaFunc>
-#include <osg/Depth>
 #include <osg/FrontFace>
 #include <osg/Geode>
 #include <osg/MatrixTransform>
-#include <osg/PolygonMode>
 #include <osg/Switch>
 
 #include <functional>
@@ -28,37 +25,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-TEST(SeeThroughTerrain, HidesNothing) {
-    const auto setPolygonMode = [](osg::StateSet& state) {
-        state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-    };
-    const auto setTransparent = [](osg::StateSet& state) { state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN); };
-    const auto setAlphaTest = [](osg::StateSet& state) { state.setAttributeAndModes(new osg::AlphaFunc); };
-    const auto setNoDepthTest = [](osg::StateSet& state) { state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); };
-    const auto setClipPlane = [](osg::StateSet& state) { state.setMode(GL_CLIP_PLANE2, osg::StateAttribute::ON); };
-    const std::vector<std::function<void(osg::StateSet&)>> states{setPolygonMode, setTransparent, setAlphaTest,
-                                                                  setNoDepthTest, setClipPlane};
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        MeshGlobe globe;
-        globe.scene = new osg::Group;
-        globe.scene->addChild(globe.root);
-        installBins(*globe.root);
-        EXPECT_FALSE(globe.drawsAntipode());
-        // above the database, on it, and on a tile
-        for (osg::Node* node : {static_cast<osg::Node*>(globe.scene), static_cast<osg::Node*>(globe.root),
-                                static_cast<osg::Node*>(globe.tiles[19])}) {
-            states[i](*node->getOrCreateStateSet());
-            EXPECT_TRUE(globe.drawsAntipode()) << i;
-            node->setStateSet(nullptr);
-            EXPECT_FALSE(globe.drawsAntipode()) << i;
-        }
-        // in a mesh that bins are installed on
-        states[i](*drawableOf(*globe.tiles[19])->getOrCreateStateSet());
-        installBins(*globe.root);
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-    }
-}
 
 // The application or a tile may cull back faces. Then a globe whose front faces look down is open from above.
 TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
@@ -76,28 +42,6 @@ TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
-// A tile with its own depth range may be drawn in front of nearer tiles.
-TEST(SeeThroughTerrain, IsWhatHasARangeOfDepthsOfItsOwn) {
-    MeshGlobe globe;
-    globe.scene = new osg::Group;
-    globe.scene->addChild(globe.root);
-    installBins(*globe.root);
-    EXPECT_FALSE(globe.drawsAntipode());
-    globe.tiles[19]->getOrCreateStateSet()->setAttribute(new osg::Depth(osg::Depth::LEQUAL, 0.0, 0.1));
-    EXPECT_TRUE(globe.drawsAntipode());
-}
-
-TEST(SeeThroughTerrain, IsNotWhatIsFilled) {
-    MeshGlobe globe;
-    osg::StateSet& state = *globe.root->getOrCreateStateSet();
-    state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::FILL));
-    state.setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
-    state.setMode(GL_ALPHA_TEST, osg::StateAttribute::OFF);
-    state.setMode(GL_FRAMEBUFFER_SRGB, osg::StateAttribute::ON);
-    installBins(*globe.root);
-    EXPECT_FALSE(globe.drawsAntipode());
-}
-
 // Programs that compare pictures draw in the order of the traversal.
 TEST(SeeThroughTerrain, IsNotWhatAnyBinOfOsgHolds) {
     for (const char* const name : {"RenderBin", "StateSortedBin", "DepthSortedBin", "TraversalOrderBin"}) {
@@ -106,6 +50,8 @@ TEST(SeeThroughTerrain, IsNotWhatAnyBinOfOsgHolds) {
         installBins(*globe.root);
         EXPECT_FALSE(globe.drawsAntipode()) << name;
         globe.root->getStateSet()->setRenderBinDetails(0, "BinOfTheApplication");
+        EXPECT_TRUE(globe.drawsAntipode());
+        globe.root->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
         EXPECT_TRUE(globe.drawsAntipode());
     }
 }

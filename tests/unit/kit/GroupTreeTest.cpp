@@ -13,7 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <support/Random.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -149,28 +148,6 @@ TEST(GroupTree, SeesThroughAHoleWhereGroupsWere) {
         update(*tree.root);
         EXPECT_TRUE(tree.drawsAntipode()) << isHalf;
     }
-}
-
-// What is drawn is what is drawn without bins, but for what the horizon hides.
-TEST(GroupTree, DrawsTheSameTilesAsOneGroupOfAll) {
-    GroupTree tree(-4000.0);
-    MeshGlobe flat(-4000.0);
-    ASSERT_EQ(installBins(*tree.root), 32u);
-    ASSERT_EQ(installBins(*flat.root), 32u);
-    Random random(4711);
-    int drawn = 0;
-    for (int i = 0; i < 300; ++i) {
-        const osg::Vec3d eye = osgVector(random.direction() * (kEarthRadius + random.logUniform(1e3, 1e7)));
-        const CullView view =
-            CullView::lookAt(eye, osgVector(random.direction() * kEarthRadius), {0, 0, 1}, random.uniform(5.0, 100.0));
-        const auto ofTree = cull(*tree.root, view, *tree.visitor, ++tree.frame).drawn;
-        const auto ofFlat = cull(*flat.root, view, *flat.visitor, ++flat.frame).drawn;
-        for (unsigned int k = 0; k < 32; ++k) {
-            EXPECT_EQ(ofTree.count(drawableOf(*tree.tiles[k])), ofFlat.count(drawableOf(*flat.tiles[k])));
-        }
-        drawn += static_cast<int>(ofTree.size());
-    }
-    EXPECT_GT(drawn, 300);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 // The shadow techniques of osgShadow: tiles outside of the picture, and beyond the viewer's horizon, still cast shadows
 // into it. Oracle: samples of the tiles, followed along the light until they are in the picture's frustum, or projected
-// by the matrices of the shadow camera. Pictures are compared in ViewerTest.cpp.
+// by the matrices of the shadow camera.
 
 #include "CameraGlobe.h"
 

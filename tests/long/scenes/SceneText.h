@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Descriptions as text: a line for each database, part and frame, with what is not as in a plain one.
+//
+//     database rows=2 levels=1 options=occlusion=on,edges=off
+//     tower hook=own tile=0.0.3.2 frame=2 low=-500 high=30000
+//     view eye=6878137,0,0 at=0,0,0 up=0,0,1 frustum=-0.2,0.2,-0.2,0.2,1,1e8
+//     expect spheres=52 bins=31      or: expect culled=20, or more
+//
+// Values between which a bar stands, as in hook=tile|globe, make a scene each; those of several fields all pairs.
+
+#pragma once
+
+#include "Description.h"
+
+#include <istream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// Drawables that are delivered in all frames of a scene. What is not given may be anything.
+struct Expectation {
+    int spheres = -1;  ///< without bins
+    int bins = -1;     ///< with them
+    int culled = -1;   ///< how many fewer with them, at least
+
+    [[nodiscard]] bool holdsFor(int withSpheres, int withBins) const {
+        return (spheres < 0 || spheres == withSpheres) && (bins < 0 || bins == withBins) &&
+               (culled < 0 || withSpheres - withBins >= culled);
+    }
+};
+
+struct NamedScene {
+    Description description;
+    std::optional<Expectation> expected;
+};
+
+/// Throws std::runtime_error with the line that cannot be read. Lines that begin with # are remarks.
+[[nodiscard]] std::vector<NamedScene> readScenes(std::istream& in);
+
+[[nodiscard]] std::string toText(const Part& part);
+[[nodiscard]] std::string toText(const Description& description);
+[[nodiscard]] std::string toText(const Expectation& expectation);
+
+}  // namespace osgAnalyticBin::test
