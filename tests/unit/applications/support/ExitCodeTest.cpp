@@ -57,7 +57,6 @@ TEST_P(ExitCode, Is2ForAWrongCommandLine) {
 }
 
 const std::vector<UsedProgram> kPrograms{
-    {"osgbinassembly", "--parts 1 --cameras 1 --output @/absent/plant.osgb", {"--parts 0"}},
     {"osgbinbench",
      "--compare @/old.json @/new.json",
      {"", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
