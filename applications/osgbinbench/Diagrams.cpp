@@ -26,7 +26,7 @@ using Labels = std::vector<std::pair<std::string, double>>;
 constexpr std::size_t kLabelRoom = 110;
 constexpr std::size_t kNamedPoses = 30;
 
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
     return "\"" + text + "\"";
 }
 
@@ -45,11 +45,11 @@ std::string headOf(const std::string& name, const Methods& methods, const Labels
     std::string tics;
     for (const auto& [label, place] : labels) {
         length = std::max(length, label.size() + 2);
-        tics += (tics.empty() ? "" : ", ") + quoted(label) + " " + textFrom(place);
+        tics += (tics.empty() ? "" : ", ") + inQuotes(label) + " " + textFrom(place);
     }
     const char* const turned = length * labels.size() > kLabelRoom ? "rotate by 40 right" : "";
-    return "# Drawn by: gnuplot " + name + ".gp\nname = " + quoted(name) + "\nnames = " + quoted(names) +
-           "\nturned = " + quoted(turned) + "\ntics = '" + tics + "'\n";
+    return "# Drawn by: gnuplot " + name + ".gp\nname = " + inQuotes(name) + "\nnames = " + inQuotes(names) +
+           "\nturned = " + inQuotes(turned) + "\ntics = '" + tics + "'\n";
 }
 
 /// Bars for each path, one a method.
@@ -100,8 +100,8 @@ std::string dataOf(const BarChart& chart, const std::vector<PathGroup>& groups, 
 Diagram diagramOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
     Labels labels;
     for (const PathGroup& group : groups) labels.emplace_back(group.name, static_cast<double>(labels.size()));
-    const std::string settings = "heading = " + quoted(chart.heading) + "\nlabel = " + quoted(chart.label) +
-                                 "\nnumberFormat = " + quoted(chart.numberFormat) +
+    const std::string settings = "heading = " + inQuotes(chart.heading) + "\nlabel = " + inQuotes(chart.label) +
+                                 "\nnumberFormat = " + inQuotes(chart.numberFormat) +
                                  "\nisRatio = " + std::to_string(chart.isRatio) +
                                  "\nhasSpread = " + std::to_string(chart.hasSpread) + "\n";
     return {chart.name, dataOf(chart, groups, methods), headOf(chart.name, methods, labels) + settings + kBarsScript};
@@ -143,7 +143,7 @@ Diagram poseDiagram(const std::vector<std::string>& poses, const Methods& method
     }
     return {"poses", poseDataOf(poses, methods),
             headOf("poses", methods, labels) + "poses = " + std::to_string(poses.size()) +
-                "\nborders = " + quoted(borders) + "\n" + kPosesScript};
+                "\nborders = " + inQuotes(borders) + "\n" + kPosesScript};
 }
 
 }  // namespace

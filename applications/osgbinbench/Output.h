@@ -5,7 +5,7 @@
 
 #include "Figures.h"
 #include "Settings.h"
-#include "TextTable.h"
+#include "Table.h"
 
 #include <iosfwd>
 #include <string>

@@ -3,8 +3,7 @@
 
 #include "Output.h"
 
-#include "RowTable.h"
-#include "TextTable.h"
+#include "Table.h"
 
 #include <algorithm>
 #include <ostream>

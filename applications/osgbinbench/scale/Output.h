@@ -29,9 +29,6 @@ struct Results {
 /// For people.
 void printTables(std::ostream& output, const Results& results);
 
-/// Throws: Failure where gnuplot is not installed.
-void requireGnuplot();
-
 /// Draws depth (time for each drawn tile), flight (time of the whole flight), residents and memory into a folder, each
 /// as .svg and .png, with its data (.csv) and the script that draws it (.gp). Throws: Failure.
 void plot(const std::string& folder, const Results& results);

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "Diagram.h"
-#include "Failure.h"
-#include "GnuplotRun.h"
 #include "Output.h"
-#include "RowTable.h"
+#include "Table.h"
 
 #include <algorithm>
 #include <string>
@@ -14,23 +12,13 @@ namespace osgAnalyticBin::scale {
 
 using report::Diagram;
 using report::Json;
-using support::Failure;
 
 namespace {
 
-// Draws NAME.svg and NAME.png from NAME.csv by what `commands` define as the macro "draw".
+// Draws NAME.csv.
 Diagram diagramOf(const std::string& name, const std::string& commands, const std::vector<Json>& rows) {
-    const std::string script =
-        "# Drawn by: gnuplot " + name + ".gp\nname = '" + name +
-        "'\nset datafile separator ','\nset key bottom right\nset grid\nset yrange [0:*]\nset macros\n" + commands +
-        R"(set terminal svg size 800,500 noenhanced background 'white'
-set output name.'.svg'
-@draw
-set terminal pngcairo size 800,500 noenhanced
-set output name.'.png'
-@draw
-)";
-    return {name, report::csvOf(rows), script};
+    const std::string common = "set datafile separator ','\nset key bottom right\nset grid\nset yrange [0:*]\n";
+    return {name, report::csvOf(rows), report::drawnTwice(name, "size 800,500 noenhanced", common + commands)};
 }
 
 // A line for each method, through the points of its rows; each method has a column.
@@ -48,8 +36,8 @@ Diagram lines(const std::string& name, const std::string& commands, const std::v
     }
     std::size_t columns = 1;
     for (const Json& point : points) columns = std::max(columns, point.size());
-    const std::string draw = "draw = \"plot for [i=2:" + std::to_string(columns) +
-                             "] name.'.csv' using 1:i with linespoints title columnhead(i)\"\n";
+    const std::string draw =
+        "plot for [i=2:" + std::to_string(columns) + "] name.'.csv' using 1:i with linespoints title columnhead(i)\n";
     return diagramOf(name, commands + draw, points);
 }
 
@@ -62,17 +50,12 @@ set style fill solid 0.6
 set boxwidth 0.6
 unset key
 set xtics rotate by 20 right
-draw = "plot name.'.csv' skip 1 using 0:2:xtic(1) with boxes"
+plot name.'.csv' skip 1 using 0:2:xtic(1) with boxes
 )",
                      bars);
 }
 
 }  // namespace
-
-void requireGnuplot() {
-    if (support::runGnuplot({{}, "exit\n", "", "/dev/null"}) != 0)
-        throw Failure("--plot: gnuplot failed; install the package gnuplot-nox");
-}
 
 void plot(const std::string& folder, const Results& results) {
     std::vector<Diagram> diagrams;

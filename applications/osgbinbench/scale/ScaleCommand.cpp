@@ -20,7 +20,6 @@ namespace osgAnalyticBin::scale {
 namespace {
 
 void measure(const Settings& settings) {
-    if (!settings.plot.empty()) requireGnuplot();
     Results results;
     // First, while little has been allocated and freed.
     if (settings.measuresMemory) results.memory = measureMemory(settings);

@@ -122,14 +122,6 @@ TEST(ScaleProgram, DrawsFigures) {
     EXPECT_EQ(test::textOfFile(folder.path() + "/depth.csv").find("x,sphere,quadratic+horizon+edges,"), 0U);
 }
 
-TEST(ScaleProgram, SaysAtOnceThatGnuplotIsMissing) {
-    const TemporaryFolder folder;
-    const Outcome outcome = test::runStock(test::quoted(BENCH_FILE) + " scale --plot " + test::quoted(folder.path()),
-                                           Modules::Absent, std::string("PATH=/absent ") + kQuiet);
-    EXPECT_EQ(outcome.code, 1);
-    EXPECT_EQ(outcome.text, "osgbinbench scale: --plot: gnuplot failed; install the package gnuplot-nox\n");
-}
-
 TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
     const struct {
         const char* arguments;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,5 +26,30 @@ using Json = nlohmann::ordered_json;
 
 /// Every number of an object over that of the same key of another one, as a text.
 [[nodiscard]] Json ratiosOf(const Json& row, const Json& reference);
+
+/// The text with HTML's own characters escaped.
+[[nodiscard]] std::string htmlText(const std::string& text);
+
+/// Lines of text in columns: the leading columns flush left, the others, numbers, flush right.
+class TextTable {
+public:
+    explicit TextTable(std::size_t leftColumns) : _leftColumns(leftColumns) {}
+
+    void add(std::vector<std::string> cells) { _lines.push_back(std::move(cells)); }
+
+    /// Adds the cells of a row, below its keys in the first line; `decimals` as of cellText().
+    void addRow(const Json& row, int decimals);
+    /// An empty line.
+    void addGap() { _lines.emplace_back(); }
+
+    void print(std::ostream& output) const;
+
+    /// The same as an HTML table: the first line is its head, and a gap begins another part of it.
+    void printHtml(std::ostream& output) const;
+
+private:
+    std::size_t _leftColumns;
+    std::vector<std::vector<std::string>> _lines;
+};
 
 }  // namespace osgAnalyticBin::report
