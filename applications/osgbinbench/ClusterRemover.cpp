@@ -4,8 +4,8 @@
 #include "ClusterRemover.h"
 
 #include "ClusterFiller.h"
+#include "CullMethod.h"
 #include "NodeWalk.h"
-#include "RasterCulling.h"
 
 namespace osgAnalyticBin::bench {
 
@@ -88,7 +88,7 @@ void ClusterRemover::fill(osg::Node& graph) {
         if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
-    if (_treatment == Clusters::FillForRaster) prepareRasterTiles(graph, pageOf.get());
+    if (_treatment == Clusters::FillForRaster) peers().prepareTiles(graph, pageOf.get());
 }
 
 }  // namespace osgAnalyticBin::bench

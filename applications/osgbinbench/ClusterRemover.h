@@ -30,7 +30,7 @@ enum class Clusters {
     Keep,
     Remove,
     Fill,          ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
-    FillForRaster  ///< as Fill, and tiles are prepared for RasterCulling.h
+    FillForRaster  ///< as Fill, and tiles are prepared for Peers::install()
 };
 
 /// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the

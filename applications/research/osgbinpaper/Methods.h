@@ -33,7 +33,7 @@ struct Frustum {
     explicit Frustum(const Camera& camera) noexcept;
 
     core::PlaneSet planes;
-    rivals::FrustumHull hull;
+    hull::FrustumHull hull;
 };
 
 /// A tile as every method has it.
@@ -50,7 +50,7 @@ struct TileBins {
     rivals::PaperBin paper;
     core::QuadraticOrExact quadratic;
     core::ExactGeodeticBin exact;
-    rivals::ReverseBin reverse;
+    hull::ReverseBin reverse;
 
 private:
     [[nodiscard]] core::Side classify(Method method, const core::PlaneSet& planes,

@@ -49,10 +49,10 @@ using core::Plane;
 using core::PlaneMask;
 using core::Side;
 using rivals::BoxBin;
-using rivals::FrustumHull;
+using hull::FrustumHull;
 using rivals::HorizonPoint;
 using rivals::OrientedBoxBin;
-using rivals::ReverseBin;
+using hull::ReverseBin;
 
 constexpr std::uint64_t kTrialsPerChunk = 10000;
 

@@ -38,9 +38,9 @@ using core::PlaneMask;
 using core::QuadraticBin;
 using core::Side;
 using rivals::CornersBin;
-using rivals::FrustumHull;
+using hull::FrustumHull;
 using rivals::PaperBin;
-using rivals::ReverseBin;
+using hull::ReverseBin;
 
 // Tiles are refined while they are closer than this many of their widths.
 constexpr double kRefineWithin = 3.0;

@@ -13,7 +13,7 @@
 #include <array>
 #include <cstddef>
 
-namespace osgAnalyticBin::rivals {
+namespace osgAnalyticBin::hull {
 
 /// The corners of a frustum, from its planes; prepared once per frustum. Side planes alone make an apex and the rays
 /// between two planes; with near and far planes there are eight corners. An orthographic frustum without near and far
@@ -92,4 +92,4 @@ private:
 /// Cost: up to five faces times eight corners, three multiplications each; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept;
 
-}  // namespace osgAnalyticBin::rivals
+}  // namespace osgAnalyticBin::hull

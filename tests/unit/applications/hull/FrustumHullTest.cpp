@@ -26,8 +26,8 @@ using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::GeodeticBin;
 using core::Plane;
-using rivals::FrustumHull;
-using rivals::ReverseBin;
+using hull::FrustumHull;
+using hull::ReverseBin;
 
 TEST(FrustumHull, PartsNoBinFromAPointOfIt) {
     Random random(320);

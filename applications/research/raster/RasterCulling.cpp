@@ -4,6 +4,7 @@
 #include "RasterCulling.h"
 
 #include "ClusterRemover.h"
+#include "CullMethod.h"
 #include "DepthRaster.h"
 #include "GlmBridge.h"
 #include "TileOccluder.h"
@@ -222,6 +223,10 @@ private:
 };
 
 }  // namespace
+
+void addPeers() {
+    peers() = {prepareRasterTiles, installRaster};
+}
 
 std::size_t prepareRasterTiles(osg::Node& graph, const osg::EllipsoidModel* pageOf) {
     const std::vector<FoundTile> tiles = tilesOnGlobe(graph, pageOf);

@@ -17,6 +17,9 @@ namespace osgAnalyticBin::bench {
 /// Nothing is proven: a pixel of the small buffer is covered or not, and visible tiles may be left out.
 /// Source: the rule of OpenMW's forks and Urho3D, and of Intel's sample "Software Occlusion Culling".
 
+/// Adds this and the rules of research/rivals to the methods of osgbinbench.
+void addPeers();
+
 /// Prepares the tiles of a file on a globe. A tile without a stored bin has no box: it is never hidden.
 /// `pageOf`: for a file that is paged below a globe, its ellipsoid; nullptr for a root file. Call it after
 /// fillClusterCallbacks(). A file that was prepared before is left as it is. Returns: how many tiles were prepared.

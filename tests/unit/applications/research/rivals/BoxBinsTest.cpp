@@ -29,8 +29,8 @@ using core::Ellipsoid;
 using core::GeodeticBin;
 using core::Plane;
 using core::Side;
+using hull::FrustumHull;
 using rivals::BoxBin;
-using rivals::FrustumHull;
 using rivals::OrientedBoxBin;
 
 // Documented above BoxBin.

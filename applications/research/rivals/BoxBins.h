@@ -16,6 +16,8 @@
 
 namespace osgAnalyticBin::rivals {
 
+using hull::FrustumHull;
+
 // Boxes around a geodetic bin, as other programs cull by: for comparison, yet sound. Both touch the bin on all six
 // sides, to 160 epsilon times the distance of its farthest point from the earth's centre, 0.3 micrometres on earth;
 // tests: BoxBins.TouchTheBinOnAllSides. A bin that ExactGeodeticBin does not hold gets a box about the whole globe.

@@ -4,7 +4,7 @@
 // Oracles: the exact intersection of a line of sight with the occluder in long double; the point itself, found from
 // samples of the bin, whose own line of sight is tested. Ten million more trials: HullSoundness.cpp.
 
-#include "../../core/HorizonChecks.h"
+#include "../../../core/HorizonChecks.h"
 #include "HorizonPoint.h"
 
 #include <osgAnalyticBin/core/horizon/Horizon.h>

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace osgAnalyticBin::rivals {
+namespace osgAnalyticBin::hull {
 
 namespace {
 
@@ -106,4 +106,4 @@ bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept {
     return false;
 }
 
-}  // namespace osgAnalyticBin::rivals
+}  // namespace osgAnalyticBin::hull
