@@ -4,8 +4,8 @@
 #include "CsvTable.h"
 #include "CullMethod.h"
 #include "DiagramScripts.h"
+#include "Output.h"
 #include "PathGroups.h"
-#include "Plot.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +19,7 @@ namespace osgAnalyticBin::bench {
 namespace {
 
 using flight::textFrom;
+using report::Diagram;
 using Methods = std::vector<MethodFigures>;
 using Labels = std::vector<std::pair<std::string, double>>;
 
@@ -148,10 +149,11 @@ Diagram poseDiagram(const std::vector<std::string>& poses, const Methods& method
 
 }  // namespace
 
-std::vector<Diagram> diagramsOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+std::vector<report::Diagram> diagramsOf(const std::vector<std::string>& poses,
+                                        const std::vector<MethodFigures>& methods) {
     const Methods shown = worthShowing(methods);
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
-    std::vector<Diagram> diagrams;
+    std::vector<report::Diagram> diagrams;
     for (const BarChart& chart : kBarCharts) diagrams.push_back(diagramOf(chart, groups, shown));
     diagrams.push_back(poseDiagram(poses, shown));
     return diagrams;

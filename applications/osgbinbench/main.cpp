@@ -12,7 +12,6 @@
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "Plot.h"
 #include "PoseBench.h"
 #include "ProgramRun.h"
 #include "ReportCommand.h"
@@ -118,7 +117,7 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
     std::cout.flush();
     if (settings.plot.empty() && settings.report.empty()) return;
     report.diagrams = diagramsOf(poses, figures);
-    if (!settings.plot.empty()) plot(settings.plot, report.diagrams);
+    if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, report.diagrams);
     if (settings.report.empty()) return;
     report.pictures = chosenPictures(poses, bench.pictures());
     writeFile(settings.report, report.html());

@@ -23,7 +23,6 @@ public:
         supportsOption("method=paper|corners|box|orientedbox",
                        "The rule: paper (default), published, and corners cull visible tiles; box and orientedbox "
                        "are sound");
-        supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1");
         supportsOption("horizon=METRES|declared|off", "As of analyticbin; default off");
         supportsOption("edges=on|off", "As of analyticbin; boxes are tested by their faces; default off");
     }

@@ -99,7 +99,7 @@ RivalCullCallback::RivalBin RivalCullCallback::rivalBin(const AnalyticBin& bin, 
     const core::ParameterBox box = core::parameterBox(bin.bin());
     switch (options.rule) {
         case Rule::Paper:
-            return PaperBin(core::GeodeticMapping(ellipsoid), box, options.growth);
+            return PaperBin(core::GeodeticMapping(ellipsoid), box);
         case Rule::Corners:
             return CornersBin(core::GeodeticMapping(ellipsoid), box);
         case Rule::Box:

@@ -3,8 +3,6 @@
 
 #include "RivalOptions.h"
 
-#include "ParameterReader.h"
-
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <array>
@@ -15,8 +13,6 @@ namespace osgAnalyticBin::rivals {
 
 namespace {
 
-constexpr double kMostGrowth = 10.0;
-
 // Returns: what is wrong; empty: nothing.
 std::string applyItem(const std::string& item, RivalOptions& options) {
     const std::size_t equals = item.find('=');
@@ -26,9 +22,6 @@ std::string applyItem(const std::string& item, RivalOptions& options) {
         const std::optional<Rule> rule = ruleFromName(value);
         if (!rule) return "unknown method \"" + value + "\" (use paper, corners, box or orientedbox)";
         options.rule = *rule;
-    } else if (key == "growth") {
-        if (!flight::setNumber(options.growth, value, 1.0, kMostGrowth))
-            return "bad growth \"" + value + "\" (use a factor from 1 to 10)";
     } else if (key == "edges") {
         if (value != "on" && value != "off") return "bad edges \"" + value + "\" (use on or off)";
         options.testsEdges = value == "on";

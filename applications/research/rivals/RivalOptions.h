@@ -24,13 +24,12 @@ enum class Rule {
 /// How a rule culls.
 struct RivalOptions {
     Rule rule = Rule::Paper;
-    double growth = PaperBin::kDefaultGrowth;  ///< factor by which Rule::Paper enlarges its box
-    bool usesHorizon = false;                  ///< of the lowest surface shown, as the kit finds it
-    bool testsEdges = false;                   ///< also against edges of the frustum; boxes: by their faces
-    std::string binOptions;                    ///< those for the kit, which finds the tiles and their bins
+    bool usesHorizon = false;  ///< of the lowest surface shown, as the kit finds it
+    bool testsEdges = false;   ///< also against edges of the frustum; boxes: by their faces
+    std::string binOptions;    ///< those for the kit, which finds the tiles and their bins
 };
 
-/// Reads "method=paper,growth=1.1,horizon=declared,edges=on"; all but method= may be left out. Other items go to the
+/// Reads "method=paper,horizon=declared,edges=on"; all but method= may be left out. Other items go to the
 /// kit. Returns: nullopt, with one line in `error`, where an item is malformed.
 [[nodiscard]] std::optional<RivalOptions> rivalOptionsFromText(const std::string& text, std::string& error);
 

@@ -126,7 +126,6 @@ TEST(RivalOptions, AreReadOrRefusedWithOneLine) {
     EXPECT_TRUE(options->usesHorizon && options->testsEdges);
     EXPECT_EQ(options->binOptions, "horizon=-500,skirts=all,occlusion=off");
     EXPECT_EQ(rivals::rivalOptionsFromText("", error)->binOptions, "horizon=off,occlusion=off");
-    EXPECT_EQ(rivals::rivalOptionsFromText("method=paper,growth=1.5", error)->growth, 1.5);
     for (const char* text : {"method=exact", "growth=0.5", "growth=x", "edges=maybe", "speed=9", "heights=3..1"}) {
         error.clear();
         EXPECT_FALSE(rivals::rivalOptionsFromText(text, error)) << text;
