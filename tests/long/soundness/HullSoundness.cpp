@@ -48,11 +48,11 @@ using core::HorizonEye;
 using core::Plane;
 using core::PlaneMask;
 using core::Side;
-using rivals::BoxBin;
 using hull::FrustumHull;
+using hull::ReverseBin;
+using rivals::BoxBin;
 using rivals::HorizonPoint;
 using rivals::OrientedBoxBin;
-using hull::ReverseBin;
 
 constexpr std::uint64_t kTrialsPerChunk = 10000;
 
