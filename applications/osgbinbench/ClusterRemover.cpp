@@ -4,12 +4,32 @@
 #include "ClusterRemover.h"
 
 #include "ClusterFiller.h"
-#include "NodeWalk.h"
-#include "RasterCulling.h"
+#include "CullMethod.h"
+
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
 
 namespace osgAnalyticBin::bench {
 
 namespace {
+
+/// Visits all nodes of a graph, masked ones too, but nothing below tiles of osgTerrain: one that is traversed before
+/// its first update never finds its Terrain.
+class NodeWalk : public osg::NodeVisitor {
+public:
+    NodeWalk() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override {
+        visit(node);
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+protected:
+    virtual void visit(osg::Node& node) = 0;
+};
 
 class Remover : public NodeWalk {
 public:
@@ -42,6 +62,21 @@ private:
         if (!globe || ellipsoid) return;
         ellipsoid = globe->getEllipsoidModel() ? globe->getEllipsoidModel() : new osg::EllipsoidModel;
     }
+};
+
+class ExpiryWalk : public NodeWalk {
+public:
+    explicit ExpiryWalk(double seconds) : _seconds(seconds) {}
+
+private:
+    void visit(osg::Node& node) override {
+        auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
+            if (!paged->getFileName(i).empty())
+                paged->setMinimumExpiryTime(i, std::max(_seconds, paged->getMinimumExpiryTime(i)));
+    }
+
+    double _seconds;
 };
 
 }  // namespace
@@ -88,7 +123,14 @@ void ClusterRemover::fill(osg::Node& graph) {
         if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
-    if (_treatment == Clusters::FillForRaster) prepareRasterTiles(graph, pageOf.get());
+    if (_treatment == Clusters::FillForRaster) peers().prepareTiles(graph, pageOf.get());
+}
+
+ExpiryRaiser::Result ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {
+    Result result = ReadInFront::readNode(fileName, options);
+    ExpiryWalk walk(_seconds);
+    if (result.getNode() && _seconds > 0.0) result.getNode()->accept(walk);
+    return result;
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -30,7 +30,7 @@ enum class Clusters {
     Keep,
     Remove,
     Fill,          ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
-    FillForRaster  ///< as Fill, and tiles are prepared for RasterCulling.h
+    FillForRaster  ///< as Fill, and tiles are prepared for Peers::install()
 };
 
 /// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the
@@ -52,6 +52,22 @@ private:
     std::atomic<Clusters> _treatment{Clusters::Keep};
     std::mutex _mutex;
     osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;  // of the globe whose pages are read; null before its root file
+};
+
+/// A callback of the Registry that raises the minimum expiry time of what PagedLODs page in, as bins do by
+/// CullOptions::expiry, in every node that is read: pages that the DatabasePager loads too. Longer times stay.
+class ExpiryRaiser : public flight::ReadInFront<ExpiryRaiser> {
+public:
+    /// 0, as at first, leaves what is read as it is.
+    void setSeconds(double seconds) { _seconds = seconds; }
+
+    Result readNode(const std::string& fileName, const osgDB::Options* options) override;
+
+protected:
+    ~ExpiryRaiser() override = default;
+
+private:
+    std::atomic<double> _seconds{0.0};
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -5,7 +5,7 @@
 
 #include "Failure.h"
 #include "FigureChange.h"
-#include "TextTable.h"
+#include "Table.h"
 
 #include <algorithm>
 #include <ostream>

@@ -4,7 +4,6 @@
 #include "CullMethod.h"
 
 #include "Failure.h"
-#include "RivalOptions.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +14,8 @@ using support::UsageError;
 
 namespace {
 
-// The bases that bins stand behind.
-constexpr std::array<const char*, 6> kBinBases{"box", "orientedbox", "corners", "paper", "quadratic", "exact"};
+constexpr std::array<const char*, 2> kBinBases{"quadratic", "exact"};
+constexpr std::array<const char*, 4> kPeerBases{"box", "orientedbox", "corners", "paper"};
 
 constexpr std::array<const char*, 22> kAll{"none",
                                            "sphere",
@@ -49,7 +48,21 @@ bool takeSuffix(std::string& name, const std::string& suffix) {
     return true;
 }
 
+template <std::size_t Count>
+bool isOneOf(const std::array<const char*, Count>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool isPeer(const std::string& name) {
+    return name == kRasterMethod || isOneOf(kPeerBases, name.substr(0, name.find('+')));
+}
+
 }  // namespace
+
+Peers& peers() {
+    static Peers peers;
+    return peers;
+}
 
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     // an index that becomes complete meanwhile would change the figures
@@ -68,7 +81,7 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
 }
 
 bool CullMethod::usesRivals() const {
-    return rivals::ruleFromName(loaderMethod).has_value();
+    return isOneOf(kPeerBases, loaderMethod);
 }
 
 CullMethod cullMethodFromName(const std::string& name) {
@@ -78,6 +91,8 @@ CullMethod cullMethodFromName(const std::string& name) {
         oracle.replaysVerdicts = true;
         return oracle;
     }
+    if (isPeer(name) && !peers().areBuilt())
+        throw UsageError("--methods: \"" + name + "\" is for comparison; build with OSGANALYTICBIN_RESEARCH=ON");
     CullMethod method;
     method.name = name;
     method.cullsNothing = name == kReferenceMethod;
@@ -99,7 +114,7 @@ CullMethod cullMethodFromName(const std::string& name) {
     method.usesOcclusion = takeSuffix(base, "+occlusion");
     method.usesEdges = takeSuffix(base, "+edges");
     method.usesHorizon = takeSuffix(base, "+horizon");
-    if (std::find(kBinBases.begin(), kBinBases.end(), base) != kBinBases.end()) method.loaderMethod = base;
+    if (isOneOf(kBinBases, base) || isOneOf(kPeerBases, base)) method.loaderMethod = base;
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
     if (!method.loaderMethod.empty() && makesSense) return method;
@@ -119,7 +134,8 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
     for (const std::string& name : names) {
         if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
-        if (name == kAllMethods) std::for_each(kAll.begin(), kAll.end(), add);
+        for (const char* const one : kAll)
+            if (name == kAllMethods && (peers().areBuilt() || !isPeer(one))) add(one);
     }
     return methods;
 }

@@ -4,8 +4,8 @@
 #include "CsvTable.h"
 #include "CullMethod.h"
 #include "DiagramScripts.h"
+#include "Output.h"
 #include "PathGroups.h"
-#include "Plot.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +19,7 @@ namespace osgAnalyticBin::bench {
 namespace {
 
 using flight::textFrom;
+using report::Diagram;
 using Methods = std::vector<MethodFigures>;
 using Labels = std::vector<std::pair<std::string, double>>;
 
@@ -26,7 +27,7 @@ using Labels = std::vector<std::pair<std::string, double>>;
 constexpr std::size_t kLabelRoom = 110;
 constexpr std::size_t kNamedPoses = 30;
 
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
     return "\"" + text + "\"";
 }
 
@@ -45,11 +46,11 @@ std::string headOf(const std::string& name, const Methods& methods, const Labels
     std::string tics;
     for (const auto& [label, place] : labels) {
         length = std::max(length, label.size() + 2);
-        tics += (tics.empty() ? "" : ", ") + quoted(label) + " " + textFrom(place);
+        tics += (tics.empty() ? "" : ", ") + inQuotes(label) + " " + textFrom(place);
     }
     const char* const turned = length * labels.size() > kLabelRoom ? "rotate by 40 right" : "";
-    return "# Drawn by: gnuplot " + name + ".gp\nname = " + quoted(name) + "\nnames = " + quoted(names) +
-           "\nturned = " + quoted(turned) + "\ntics = '" + tics + "'\n";
+    return "# Drawn by: gnuplot " + name + ".gp\nname = " + inQuotes(name) + "\nnames = " + inQuotes(names) +
+           "\nturned = " + inQuotes(turned) + "\ntics = '" + tics + "'\n";
 }
 
 /// Bars for each path, one a method.
@@ -100,8 +101,8 @@ std::string dataOf(const BarChart& chart, const std::vector<PathGroup>& groups, 
 Diagram diagramOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
     Labels labels;
     for (const PathGroup& group : groups) labels.emplace_back(group.name, static_cast<double>(labels.size()));
-    const std::string settings = "heading = " + quoted(chart.heading) + "\nlabel = " + quoted(chart.label) +
-                                 "\nnumberFormat = " + quoted(chart.numberFormat) +
+    const std::string settings = "heading = " + inQuotes(chart.heading) + "\nlabel = " + inQuotes(chart.label) +
+                                 "\nnumberFormat = " + inQuotes(chart.numberFormat) +
                                  "\nisRatio = " + std::to_string(chart.isRatio) +
                                  "\nhasSpread = " + std::to_string(chart.hasSpread) + "\n";
     return {chart.name, dataOf(chart, groups, methods), headOf(chart.name, methods, labels) + settings + kBarsScript};
@@ -143,15 +144,16 @@ Diagram poseDiagram(const std::vector<std::string>& poses, const Methods& method
     }
     return {"poses", poseDataOf(poses, methods),
             headOf("poses", methods, labels) + "poses = " + std::to_string(poses.size()) +
-                "\nborders = " + quoted(borders) + "\n" + kPosesScript};
+                "\nborders = " + inQuotes(borders) + "\n" + kPosesScript};
 }
 
 }  // namespace
 
-std::vector<Diagram> diagramsOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+std::vector<report::Diagram> diagramsOf(const std::vector<std::string>& poses,
+                                        const std::vector<MethodFigures>& methods) {
     const Methods shown = worthShowing(methods);
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
-    std::vector<Diagram> diagrams;
+    std::vector<report::Diagram> diagrams;
     for (const BarChart& chart : kBarCharts) diagrams.push_back(diagramOf(chart, groups, shown));
     diagrams.push_back(poseDiagram(poses, shown));
     return diagrams;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "Diagram.h"
-#include "TextTable.h"
+#include "Table.h"
 
 #include <osg/Image>
 

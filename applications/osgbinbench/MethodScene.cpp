@@ -6,7 +6,6 @@
 #include "CsvTable.h"
 #include "Failure.h"
 #include "Interruption.h"
-#include "RasterCulling.h"
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
@@ -96,7 +95,7 @@ void MethodScene::load() {
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
-    if (_method.usesRaster()) installRaster(*root, _settings.width, _settings.height);
+    if (_method.usesRaster()) peers().install(*root, _settings.width, _settings.height);
     _camera->addChild(root);
     _paged.emplace(*root, *_camera);
 }

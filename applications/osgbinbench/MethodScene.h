@@ -7,7 +7,6 @@
 #include "CameraView.h"
 #include "ClusterRemover.h"
 #include "CullMethod.h"
-#include "ExpiryRaiser.h"
 #include "Failure.h"
 #include "PagedScene.h"
 #include "ReadCounter.h"

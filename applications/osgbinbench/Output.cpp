@@ -6,7 +6,7 @@
 #include "CullMethod.h"
 #include "Interruption.h"
 #include "PathGroups.h"
-#include "RowTable.h"
+#include "Table.h"
 #include "ThreadingName.h"
 
 #include <osg/Version>

@@ -3,9 +3,10 @@
 
 #pragma once
 
+#include "Diagram.h"
 #include "Figures.h"
 #include "Settings.h"
-#include "TextTable.h"
+#include "Table.h"
 
 #include <iosfwd>
 #include <string>
@@ -34,6 +35,12 @@ namespace osgAnalyticBin::bench {
                                                       const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<FlightFigures>& methods);
 [[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<DrawnFigures>& methods);
+
+/// Tiles drawn, files requested and cull time by method, path by path, and tiles, triangles and files pose by pose.
+/// The reference method is left out where there are others: it dwarfs them all.
+/// Requires: figures for each of the poses, of one method at least.
+[[nodiscard]] std::vector<report::Diagram> diagramsOf(const std::vector<std::string>& poses,
+                                                      const std::vector<MethodFigures>& methods);
 
 /// One below the other.
 void print(std::ostream& output, const std::vector<report::TextTable>& tables);

@@ -3,7 +3,6 @@
 
 #include "TileTruth.h"
 
-#include "BoxBins.h"
 #include "FrustumHull.h"
 #include "GlmBridge.h"
 #include "SurfaceBin.h"
@@ -55,11 +54,11 @@ public:
         const core::GeodeticBin& bin = shown.bin();
         if (_ellipsoid.isPlane()) {
             const core::QuadraticBin box(core::GeodeticMapping(_ellipsoid), core::parameterBox(bin), shown.margin());
-            return meets(box) && !isSeparated(rivals::BoxBin(_ellipsoid, bin, shown.margin()), _hull);
+            return meets(box) && !isBeyondAFace(box);
         }
         if (!core::ExactGeodeticBin::holds(_ellipsoid, bin)) return true;
         const core::ExactGeodeticBin exact(_ellipsoid, bin, shown.margin());
-        return meets(exact) && !isSeparated(rivals::ReverseBin(exact, bin), _hull);
+        return meets(exact) && !isSeparated(hull::ReverseBin(exact, bin), _hull);
     }
 
     [[nodiscard]] bool hides(const AnalyticBin& shown) const {
@@ -76,10 +75,20 @@ private:
                !core::isSeparated(bin, _planes, _planes.size(), undecided, _planes.size());
     }
 
+    // Of the box of a map.
+    [[nodiscard]] bool isBeyondAFace(const core::QuadraticBin& box) const {
+        for (glm::length_t i = 0; i < 6 && _hull.cornerCount() > 0; ++i) {
+            glm::dvec3 outward(0.0);
+            outward[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+            if (_hull.isBehind({-outward, box.distanceRange({outward, 0.0}).upper}, box.reach())) return true;
+        }
+        return false;
+    }
+
     core::Ellipsoid _ellipsoid;
     glm::dvec3 _eye;
     std::vector<core::Plane> _planes;
-    rivals::FrustumHull _hull;
+    hull::FrustumHull _hull;
     std::optional<core::HorizonEye> _horizon;
 };
 

@@ -12,12 +12,15 @@
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "Plot.h"
 #include "PoseBench.h"
 #include "ProgramRun.h"
 #include "ReportCommand.h"
 #include "ScaleCommand.h"
 #include "TextFile.h"
+
+#ifdef OSGANALYTICBIN_RESEARCH
+#include "RasterCulling.h"
+#endif
 
 #include <osg/Notify>
 
@@ -114,7 +117,7 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
     std::cout.flush();
     if (settings.plot.empty() && settings.report.empty()) return;
     report.diagrams = diagramsOf(poses, figures);
-    if (!settings.plot.empty()) plot(settings.plot, report.diagrams);
+    if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, report.diagrams);
     if (settings.report.empty()) return;
     report.pictures = chosenPictures(poses, bench.pictures());
     writeFile(settings.report, report.html());
@@ -149,6 +152,9 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef OSGANALYTICBIN_RESEARCH
+    addPeers();
+#endif
     using osgAnalyticBin::support::runProgram;
     const std::string command = argc > 1 ? argv[1] : "";
     if (command == "report")

@@ -79,6 +79,8 @@ function(osganalyticbin_osg_module target)
     ${target} PROPERTIES PREFIX "${_prefix}"
                          LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                          INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/..")
-  install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
-                                    COMPONENT plugins)
+  if(NOT "NOT_INSTALLED" IN_LIST ARGN)
+    install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+                                      COMPONENT plugins)
+  endif()
 endfunction()

@@ -5,9 +5,8 @@
 
 #include "PathGroups.h"
 #include "PictureDifference.h"
-#include "RowTable.h"
+#include "Table.h"
 #include "TextFile.h"
-#include "TextTable.h"
 
 #include <osgDB/WriteFile>
 

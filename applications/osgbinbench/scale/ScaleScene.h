@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "CameraView.h"
-#include "CullStage.h"
-#include "Settings.h"
+#include "MethodScene.h"
+#include "Table.h"
 
-#include <osg/Camera>
 #include <osg/PagedLOD>
 
 #include <GlobeOptions.h>
@@ -15,90 +13,45 @@
 #include <cstddef>
 #include <deque>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::scale {
 
-/// Reads what PagedLODs ask for at once, in the thread that calls load().
-class TileLoader : public osg::NodeVisitor::DatabaseRequestHandler {
-public:
-    void requestNodeFile(const std::string& fileName, osg::NodePath& nodePath, float priority,
-                         const osg::FrameStamp* frameStamp, osg::ref_ptr<osg::Referenced>& request,
-                         const osg::Referenced* options) override;
-
-    /// Merges everything asked for since the last call, and counts the PagedLODs that came.
-    /// Returns: whether anything was asked for. Throws: Failure.
-    bool load(std::size_t& pagedLods);
-
-private:
-    std::vector<osg::ref_ptr<osg::PagedLOD>> _pending;
-};
-
-/// Reads the finer children of a PagedLOD and merges them as the DatabasePager does.
-/// Returns: the PagedLODs among them. Throws: Failure.
-std::vector<osg::ref_ptr<osg::PagedLOD>> loadChildren(osg::PagedLOD& node);
-
-/// What a cull traversal found.
-struct TileTally {
-    std::uint64_t tested = 0;
-    std::uint64_t kept = 0;
-    std::uint64_t drawn = 0;
-    std::uint64_t leaves = 0;  ///< drawn tiles of the deepest level
-
-    void add(const TileTally& other);
-};
-
-/// A procedural globe, culled by one method without a window: tiles are loaded in the calling thread.
+/// A procedural globe, culled by one method without a window.
 class ScaleScene {
 public:
-    /// Throws: Failure when the globe cannot be read.
-    ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& options);
-    ScaleScene(const ScaleScene&) = delete;
-    ScaleScene& operator=(const ScaleScene&) = delete;
+    ScaleScene(const bench::CullMethod& method, const globe::GlobeOptions& options, bench::FileWatch& watch);
 
     /// Stands at a pose until all that it asks for is loaded. Throws: Failure.
     void settle(const flight::CameraPose& pose);
-
     /// Loads tiles of the hemisphere away from the eye, coarse ones first, until there are that many PagedLODs in all.
     /// Requires: settle(). Throws: Failure when the globe has no more.
     void fill(std::size_t pagedLods);
-
-    /// Repeats from now on, without a test, what the method decides at the pose. Requires: settle(), and that no more
-    /// tiles are loaded; settle() anew begins with the root file.
+    /// Repeats from now on, without a test, what the method decides at the pose. Requires: settle(). No more tiles are
+    /// loaded; settle() anew begins with the root file.
     void replay();
 
-    [[nodiscard]] TileTally tally();
-
+    /// Adds to "tested_tiles", "kept_tiles" and "drawn_tiles".
+    void addCounts(report::Json& row);
     /// Milliseconds of one cull traversal and its sorting.
     [[nodiscard]] double cullMs();
-
     /// Milliseconds of one update traversal.
     [[nodiscard]] double updateMs();
 
-    [[nodiscard]] osg::Group& root() { return *_root; }
-    [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
-    [[nodiscard]] const ScaleMethod& method() const { return _method; }
-    [[nodiscard]] std::size_t pagedLods() const { return _pagedLods; }
+    [[nodiscard]] osg::Node& root() { return _scene.root(); }
+    [[nodiscard]] osg::FrameStamp& frameStamp() { return _scene.frameStamp(); }
+    [[nodiscard]] const bench::CullMethod& method() const { return _scene.method(); }
+    [[nodiscard]] std::size_t pagedLods();
 
 private:
-    void readRoot();
+    void load();
     void nextFrame();
-    [[nodiscard]] bool loadAndUpdate();
 
-    ScaleMethod _method;
-    globe::GlobeOptions _options;
-    osg::ref_ptr<osg::Group> _root;
-    osg::ref_ptr<osg::Camera> _camera;
-    osg::ref_ptr<osg::FrameStamp> _frameStamp;
-    flight::Globe _globe;
-    osg::Vec3d _eyeEcef;
-    std::size_t _pagedLods = 0;
+    bench::Settings _settings;
+    bench::MethodScene _scene;
     std::deque<osg::ref_ptr<osg::PagedLOD>> _frontier;
-    bool _isFilling = false;
     bool _isReplaying = false;
-    osg::ref_ptr<TileLoader> _loader;
-    osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _deaf;
+    osg::ref_ptr<flight::RequestCounter> _deaf;
     flight::CullStage _stage;
 };
 

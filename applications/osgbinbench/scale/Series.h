@@ -3,54 +3,47 @@
 
 #pragma once
 
-#include "ScaleScene.h"
-#include "Settings.h"
+#include "CullMethod.h"
+#include "Diagram.h"
+#include "Table.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace osgAnalyticBin::scale {
 
-/// One method over the flight down a globe of some depth; sums over the poses.
-struct DepthRow {
-    int levels = 0;
-    std::string method;
-    TileTally tiles;
-    double cullMs = 0.0;
-    double cullSpreadMs = 0.0;  ///< from the first quartile to the third
+/// What the command line asks for.
+struct Settings {
+    std::vector<std::string> methodNames{"sphere", bench::kDefaultMethod, bench::kOracleMethod};
+    std::vector<std::string> series{"depth", "residents", "memory"};
+    std::vector<int> levels{4, 8, 12, 16, 20};
+    std::vector<int> residents{100, 1000, 10000, 100000};
+    int memoryTiles = 10000;
+    int poses = 12;
+    int cells = 8;
+    int rounds = 15;
+    std::string csv;
+    std::string json;
+    std::string plot;
 
-    [[nodiscard]] double usPerDrawnTile() const {
-        return tiles.drawn ? 1000.0 * cullMs / static_cast<double>(tiles.drawn) : 0.0;
-    }
+    /// The oracle repeats what bins keep. Throws: Failure for an unknown name.
+    [[nodiscard]] std::vector<bench::CullMethod> methods() const;
 };
 
-/// One method with some number of PagedLODs in memory; milliseconds.
-struct ResidentRow {
-    std::size_t pagedLods = 0;
-    std::string method;
-    TileTally tiles;
-    double cullMs = 0.0;
-    double cullSpreadMs = 0.0;
-    double updateMs = 0.0;
-    double pagerIdleMs = 0.0;  ///< the DatabasePager's update, with fewer PagedLODs than its target
-    double pagerFullMs = 0.0;  ///< with more, none of which may go yet
-};
+/// A row for each method and measurement.
+using Rows = std::vector<report::Json>;
 
-/// What tiles in memory take, by what is installed on them.
-struct MemoryRow {
-    std::string method;  ///< "no bins", "stored bins", or a method
-    std::size_t tiles = 0;
-    double bytesPerTile = 0.0;   ///< 0 where malloc does not count
-    double loadUsPerTile = 0.0;  ///< making the tile and installing its bin, in the pager's thread as a rule
-};
+/// Each method on flights down globes of several depths; sums over the poses. Throws: Failure.
+[[nodiscard]] Rows measureDepth(const Settings& settings);
+/// Each method with several numbers of PagedLODs in memory; also the DatabasePager's update with fewer PagedLODs than
+/// its target, and with more, none of which may go yet. Throws: Failure.
+[[nodiscard]] Rows measureResidents(const Settings& settings);
+/// What tiles in memory take by what is installed on them, and the time of making and installing one, in the pager's
+/// thread as a rule. Throws: Failure.
+[[nodiscard]] Rows measureMemory(const Settings& settings);
 
-/// Throws: Failure.
-[[nodiscard]] std::vector<DepthRow> measureDepth(const Settings& settings);
-[[nodiscard]] std::vector<ResidentRow> measureResidents(const Settings& settings);
-[[nodiscard]] std::vector<MemoryRow> measureMemory(const Settings& settings);
-
-/// The flight's stops, from 10 000 km above the terrain down to where tiles of the deepest level are near enough.
-[[nodiscard]] std::vector<flight::CameraPose> descent(const globe::GlobeOptions& options, int poses);
+/// Depth (time for each drawn tile), flight (time of the whole flight), residents and memory; of a series without rows
+/// none.
+[[nodiscard]] std::vector<report::Diagram> diagramsOf(const Rows& depth, const Rows& residents, const Rows& memory);
 
 }  // namespace osgAnalyticBin::scale

@@ -4,17 +4,47 @@
 #include "Camera.h"
 
 #include "Angles.h"
-#include "SeededRandom.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <cstdint>
 
 namespace osgAnalyticBin::paper {
 
 namespace {
 
 using support::kRadiansPerDegree;
+
+/// Gives the same sequence on every machine, one a stream.
+/// Source: [SLF], SplitMix64.
+class SeededRandom final {
+public:
+    explicit SeededRandom(std::uint64_t stream) noexcept : _state(1) {
+        _state = bits() ^ (stream * 0xD1342543DE82EF95u);
+    }
+
+    /// In [lower, upper).
+    [[nodiscard]] double uniform(double lower, double upper) noexcept {
+        return lower + (upper - lower) * static_cast<double>(bits() >> 11) * 0x1p-53;
+    }
+
+    /// Every order of magnitude between the two is equally likely. Requires: 0 < lower <= upper.
+    [[nodiscard]] double logUniform(double lower, double upper) noexcept {
+        return lower * std::exp(uniform(0.0, 1.0) * std::log(upper / lower));
+    }
+
+private:
+    [[nodiscard]] std::uint64_t bits() noexcept {
+        _state += 0x9E3779B97F4A7C15u;
+        std::uint64_t z = _state;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+        return z ^ (z >> 31);
+    }
+
+    std::uint64_t _state;
+};
 
 core::Plane through(const glm::dvec3& inward, const glm::dvec3& point) {
     const glm::dvec3 normal = glm::normalize(inward);
@@ -51,9 +81,9 @@ Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position
     return camera;
 }
 
-Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number, std::uint64_t seed) {
+Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number) {
     const ViewKind& view = kViewKinds[kind];
-    SeededRandom random(seed, kViewKinds.size() * number + kind);
+    SeededRandom random(kViewKinds.size() * number + kind);
     const osgbindem::RectDeg extent = terrain.extent();
     // Equal areas are equally likely.
     const double sine =

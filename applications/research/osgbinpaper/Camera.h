@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace osgAnalyticBin::paper {
 
@@ -45,7 +44,7 @@ inline constexpr std::array<ViewKind, 6> kViewKinds{{{"low, fov 60", 60.0, 2e2, 
 [[nodiscard]] Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg,
                               double pitchDeg, double fovDeg) noexcept;
 
-/// The camera of that number of a kind: above the raster's extent, the same for the same seed.
-[[nodiscard]] Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number, std::uint64_t seed);
+/// The camera of that number of a kind: above the raster's extent, the same in every run.
+[[nodiscard]] Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number);
 
 }  // namespace osgAnalyticBin::paper

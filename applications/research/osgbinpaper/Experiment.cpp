@@ -3,103 +3,161 @@
 
 #include "Experiment.h"
 
-#include "Stopwatch.h"
-#include "VerdictCheck.h"
+#include "Table.h"
+
+#include <ostream>
+#include <tuple>
 
 namespace osgAnalyticBin::paper {
 
 namespace {
 
-// Trees that are kept for timing: enough tests that their outcomes cannot be learned.
-constexpr std::size_t kTimedCameras = 16;
+using report::Json;
 
-class ViewRun {
+// Metres; a verdict is not blamed for rounding.
+constexpr double kRounding = 1e-3;
+
+struct CountColumn {
+    const char* name;
+    std::uint64_t Counts::*count;
+    const char* meaning;
+};
+
+constexpr std::array<CountColumn, 7> kColumns{
+    {{"tested", &Counts::tested, "tiles tested"},
+     {"drawn", &Counts::drawn, "leaves not culled"},
+     {"wrong_culls", &Counts::wrongCulls,
+      "tiles culled although a point of them, found by sampling, is in the frustum"},
+     {"holes", &Counts::holes, "of these, such whose terrain is in view and not behind the globe"},
+     {"lost_leaves", &Counts::lostLeaves, "leaves with a point in the frustum that were not drawn"},
+     {"wrong_keeps", &Counts::wrongKeeps, "leaves drawn although a plane parts them from the frustum"},
+     {"wrong_insides", &Counts::wrongInsides, "tiles found wholly inside although a point of them is outside"}}};
+
+bool isTrulyInside(const core::ExactGeodeticBin& bin, const Camera& camera) {
+    for (const core::Plane& plane : camera.planes())
+        if (plane.distance(bin.supportPoint(-plane.normal)) < -kRounding) return false;
+    return true;
+}
+
+// A hole is worse than a tile that nobody misses, and of two of a kind the deeper one.
+bool isWorse(const WrongCull& a, const WrongCull& b) {
+    return std::tie(a.isHole, a.witness.depth) > std::tie(b.isHole, b.witness.depth);
+}
+
+/// One camera: the verdicts of all methods against what is proven of the tiles.
+class CameraRun {
 public:
-    ViewRun(Terrain& terrain, const ExperimentSettings& settings, std::size_t kind, Results& results)
-        : _terrain(terrain), _occlusion(terrain), _settings(settings), _kind(kind), _results(results) {}
+    CameraRun(Terrain& terrain, std::size_t kind, std::size_t number, Results& results)
+        : _terrain(terrain),
+          _kind(kind),
+          _number(number),
+          _camera(randomCamera(terrain, kind, number)),
+          _tree(terrain, _camera),
+          _results(results) {}
 
-    void add(std::size_t number) {
-        const Camera camera = randomCamera(_terrain, _kind, number, _settings.seed);
-        TimedTree tree{TileTree(_terrain, camera, _settings.factor), Frustum(camera)};
+    void judge() {
         ViewResult& view = _results.views[_kind];
         ++view.cameras;
-        countLeaves(tree.tree, view);
-        for (std::size_t method = 0; method < kMethods; ++method)
-            judge(tree, camera, number, static_cast<Method>(method), view);
-        if (_settings.hidesBehindTerrain) hide(tree, camera);
-        if (_settings.isTimed && _timed.size() < kTimedCameras) _timed.push_back(std::move(tree));
-    }
-
-    void time() {
-        for (std::size_t method = 0; method < kMethods; ++method)
-            _results.views[_kind].nanoseconds[method] = nanosecondsPerTile(_timed, static_cast<Method>(method));
+        for (const TreeTile& tile : _tree.tiles) view.seenLeaves += tile.isLeaf() && tile.witness ? 1U : 0U;
+        for (std::size_t method = 0; method < kMethods; ++method) {
+            const std::vector<Verdict> verdicts = cull(_tree, Frustum(_camera), static_cast<Method>(method));
+            for (std::size_t tile = 0; tile < verdicts.size(); ++tile)
+                view.methods[method].add(countsOf(tile, verdicts[tile], _results.worst[method]));
+        }
     }
 
 private:
-    static void countLeaves(const TileTree& tree, ViewResult& view) {
-        for (const TreeTile& tile : tree.tiles) {
-            if (!tile.isLeaf()) continue;
-            const auto level = static_cast<std::size_t>(tile.id.level);
-            ++view.leaves[level];
-            if (tile.witness) ++view.seenLeaves[level];
-        }
-    }
-
-    void judge(const TimedTree& timed, const Camera& camera, std::size_t number, Method method, ViewResult& view) {
-        std::vector<Verdict> verdicts(timed.tree.tiles.size(), Verdict::Untested);
-        cull(timed.tree, timed.frustum, method, verdicts);
-        VerdictCheck check(_terrain, timed.tree, camera);
-        LevelCounts& levels = view.methods[indexOf(method)];
-        for (std::size_t tile = 0; tile < verdicts.size(); ++tile)
-            levels[static_cast<std::size_t>(timed.tree.tiles[tile].id.level)].add(check.count(tile, verdicts[tile]));
-        keepWorst(check.worst(), number, _results.worst[indexOf(method)]);
-    }
-
-    void hide(const TimedTree& timed, const Camera& camera) {
-        std::vector<Verdict> verdicts(timed.tree.tiles.size(), Verdict::Untested);
-        cull(timed.tree, timed.frustum, Method::Exact, verdicts);
-        _results.occlusion[_kind].add(_occlusion.count(timed.tree, verdicts, camera));
-    }
-
-    void keepWorst(const std::optional<WrongCull>& found, std::size_t number, std::optional<WrongCull>& worst) const {
-        if (!found || (worst && !isWorse(*found, *worst))) return;
-        worst = found;
-        worst->kind = _kind;
-        worst->number = number;
+    Counts countsOf(std::size_t i, Verdict verdict, std::optional<WrongCull>& worst) {
+        const TreeTile& tile = _tree.tiles[i];
+        Counts counts;
+        counts.tested = isTested(verdict) ? 1 : 0;
+        counts.drawn = isKept(verdict) && tile.isLeaf() ? 1 : 0;
+        counts.lostLeaves = tile.isLeaf() && tile.witness && !isKept(verdict) ? 1 : 0;
+        counts.wrongKeeps = counts.drawn == 1 && tile.isOutside ? 1 : 0;
+        counts.wrongInsides = verdict == Verdict::Inside && !isTrulyInside(tile.bins.exact, _camera) ? 1 : 0;
+        if (verdict != Verdict::Outside || !tile.witness || tile.witness->depth <= kRounding) return counts;
+        const auto seen = findTerrainWitness(_terrain, tile.box, _camera);
+        const WrongCull found{_camera,         _kind, _number, tile.id, tile.box, seen ? *seen : *tile.witness,
+                              seen.has_value()};
+        counts.wrongCulls = 1;
+        counts.holes = found.isHole ? 1 : 0;
+        if (!worst || isWorse(found, *worst)) worst = found;
+        return counts;
     }
 
     Terrain& _terrain;
-    TerrainOcclusion _occlusion;
-    const ExperimentSettings& _settings;
-    std::size_t _kind;
+    std::size_t _kind, _number;
+    Camera _camera;
+    TileTree _tree;
     Results& _results;
-    std::vector<TimedTree> _timed;
 };
+
+std::vector<Json> rowsOf(const char* name, const ViewResult& view) {
+    std::vector<Json> rows;
+    for (std::size_t method = 0; method < kMethods; ++method) {
+        Json& row = rows.emplace_back();
+        row["view"] = name;
+        row["method"] = kMethodNames[method];
+        row["cameras"] = view.cameras;
+        row["seen_leaves"] = view.seenLeaves;
+        for (const CountColumn& column : kColumns) row[column.name] = view.methods[method].*column.count;
+    }
+    return rows;
+}
 
 }  // namespace
 
+void Counts::add(const Counts& other) noexcept {
+    for (const CountColumn& column : kColumns) this->*column.count += other.*column.count;
+}
+
+void ViewResult::add(const ViewResult& other) noexcept {
+    cameras += other.cameras;
+    seenLeaves += other.seenLeaves;
+    for (std::size_t method = 0; method < kMethods; ++method) methods[method].add(other.methods[method]);
+}
+
 ViewResult Results::sum() const noexcept {
     ViewResult sum;
-    for (const ViewResult& view : views) {
-        sum.add(view);
-        for (std::size_t method = 0; method < kMethods; ++method)
-            sum.nanoseconds[method] += view.nanoseconds[method] / static_cast<double>(views.size());
-    }
+    for (const ViewResult& view : views) sum.add(view);
     return sum;
 }
 
-Results runExperiment(Terrain& terrain, const ExperimentSettings& settings, Progress& progress) {
+Results runExperiment(Terrain& terrain, std::size_t cameras, const std::function<void(double)>& progress) {
     Results results;
-    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
-        ViewRun run(terrain, settings, kind, results);
-        for (std::size_t number = 0; number < settings.cameras; ++number) {
-            progress.show(kViewKinds[kind].name, number, settings.cameras);
-            run.add(number);
-        }
-        if (settings.isTimed) run.time();
+    for (std::size_t number = 0; number < cameras; ++number) {
+        if (progress) progress(static_cast<double>(number) / static_cast<double>(cameras));
+        for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) CameraRun(terrain, kind, number, results).judge();
     }
-    progress.finish();
     return results;
+}
+
+std::string csvOf(const Results& results) {
+    std::vector<Json> rows;
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind)
+        for (Json& row : rowsOf(kViewKinds[kind].name, results.views[kind])) rows.push_back(std::move(row));
+    return report::csvOf(rows);
+}
+
+void printTables(std::ostream& output, const Results& results) {
+    report::TextTable table(2);
+    const auto add = [&table](const char* name, const ViewResult& view) {
+        for (const Json& row : rowsOf(name, view)) table.addRow(row, 0);
+        table.addGap();
+    };
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) add(kViewKinds[kind].name, results.views[kind]);
+    add("all views", results.sum());
+    table.print(output);
+}
+
+std::string meaningOfColumns() {
+    std::string text;
+    for (const CountColumn& column : kColumns) {
+        std::string name = column.name;
+        name.resize(15, ' ');
+        text += "  " + name + column.meaning + "\n";
+    }
+    return text;
 }
 
 }  // namespace osgAnalyticBin::paper

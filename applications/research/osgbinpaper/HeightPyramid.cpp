@@ -31,11 +31,10 @@ std::size_t startIndex(const TileId& start) {
 
 }  // namespace
 
-HeightPyramid::HeightPyramid(int deepestLevel, const Range& range, const Notice& notice) : _deepestLevel(deepestLevel) {
+HeightPyramid::HeightPyramid(int deepestLevel, const Range& range) : _deepestLevel(deepestLevel) {
     assert(0 <= deepestLevel && deepestLevel <= kDeepest);
     for (int y = 0; y < TileId::kStartRows; ++y) {
         for (int x = 0; x < TileId::kStartColumns; ++x) {
-            if (notice) notice({0, x, y});
             _startTiles.push_back(build({0, x, y}, range));
         }
     }

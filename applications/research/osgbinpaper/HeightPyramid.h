@@ -22,13 +22,11 @@ public:
 
     /// Metres above the ellipsoid within a tile.
     using Range = std::function<core::Interval(const TileId&)>;
-    /// Called before a start tile is taken.
-    using Notice = std::function<void(const TileId&)>;
 
     /// Asks `range` for the start tiles and, where a start tile is not flat, for its tiles at the deepest level; the
     /// levels between are united from four children each.
     /// Requires: 0 <= deepestLevel <= kDeepest; the range of a start tile holds those of its descendants.
-    HeightPyramid(int deepestLevel, const Range& range, const Notice& notice = {});
+    HeightPyramid(int deepestLevel, const Range& range);
 
     [[nodiscard]] int deepestLevel() const noexcept { return _deepestLevel; }
 

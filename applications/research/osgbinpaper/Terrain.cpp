@@ -33,25 +33,19 @@ core::Ellipsoid wgs84() {
     return {model->getRadiusEquator(), model->getRadiusPolar()};
 }
 
-Terrain::Terrain(const std::string& dem, int deepestLevel, double floor, Progress& progress)
+Terrain::Terrain(const std::string& dem, int deepestLevel)
     : _ellipsoid(wgs84()),
       _source(layerOf(dem)),
-      _floor(floor),
-      _pyramid(
-          deepestLevel, [this](const TileId& tile) { return range(tile); },
-          [&](const TileId& start) {
-              const int done = start.y * TileId::kStartColumns + start.x;
-              progress.show("heights", static_cast<std::size_t>(done), TileId::kStartColumns * TileId::kStartRows);
-              _source.prefetch(start.rect());
-          }) {
+      _pyramid(deepestLevel, [this](const TileId& tile) { return range(tile); }) {
     const osgbindem::RasterFile& file = *_source.layer().members().front().file;
     if (!file.hasHeights(file.look())) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
 core::Interval Terrain::range(const TileId& tile) {
+    if (tile.level == 0) _source.prefetch(tile.rect());
     osgbindem::HeightRange range;
     if (!_source.addRange(tile.rect(), range)) range.include(0.0);
-    return {std::max(range.lower, _floor), std::max(range.upper, _floor)};
+    return {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
 }
 
 osgbindem::RectDeg Terrain::extent() const noexcept {
@@ -62,7 +56,7 @@ osgbindem::RectDeg Terrain::extent() const noexcept {
 
 double Terrain::height(const osgbindem::PositionDeg& position) {
     const auto found = _source.height(position);
-    return std::max(found ? found->metres : 0.0, _floor);
+    return std::max(found ? found->metres : 0.0, 0.0);
 }
 
 core::Geodetic Terrain::onSurface(const core::Geodetic& position) {

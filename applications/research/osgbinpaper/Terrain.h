@@ -5,7 +5,6 @@
 
 #include "DemSource.h"
 #include "HeightPyramid.h"
-#include "Progress.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
@@ -19,13 +18,12 @@ namespace osgAnalyticBin::paper {
 /// The globe that an elevation raster describes; 0 m where it has no data.
 class Terrain final {
 public:
-    /// `floor`: heights below are taken for this one, the sea's surface; metres.
+    /// Heights below 0 m, those of the sea's floor, are taken for its surface.
     /// Throws: osgbindem::Failure when the raster cannot be read.
-    Terrain(const std::string& dem, int deepestLevel, double floor, Progress& progress);
+    Terrain(const std::string& dem, int deepestLevel);
 
     [[nodiscard]] const HeightPyramid& pyramid() const noexcept { return _pyramid; }
     [[nodiscard]] const core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
-    [[nodiscard]] double floor() const noexcept { return _floor; }
 
     /// Where the raster has part; the whole globe for one that goes round it.
     [[nodiscard]] osgbindem::RectDeg extent() const noexcept;
@@ -44,7 +42,6 @@ private:
 
     core::Ellipsoid _ellipsoid;
     osgbindem::DemSource _source;
-    double _floor;
     HeightPyramid _pyramid;
 };
 

@@ -29,37 +29,33 @@ double distanceTo(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid
     return glm::distance(ellipsoid.toEcef(nearest), eyeEcef);
 }
 
-void divide(TileTree& tree, const Terrain& terrain, const Camera& camera, double factor) {
+void divide(std::vector<TreeTile>& tiles, const Terrain& terrain, const Camera& camera) {
+    constexpr double kWidths = 3.0;
     const core::Geodetic eye = terrain.ellipsoid().toGeodetic(camera.eye);
-    for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-        const TileId id = tree.tiles[i].id;
-        const double width = tree.boxes[i].latitude().width() * terrain.ellipsoid().equatorialRadius();
-        const bool isNear = distanceTo(tree.boxes[i], terrain.ellipsoid(), eye, camera.eye) < factor * width;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const TileId id = tiles[i].id;
+        const double width = tiles[i].box.latitude().width() * terrain.ellipsoid().equatorialRadius();
+        const bool isNear = distanceTo(tiles[i].box, terrain.ellipsoid(), eye, camera.eye) < kWidths * width;
         if (!isNear || id.level == terrain.pyramid().deepestLevel()) continue;
-        tree.tiles[i].firstChild = tree.tiles.size();
-        for (const TileId& child : id.children()) {
-            tree.tiles.push_back({child, TreeTile::kNone, false, std::nullopt});
-            tree.boxes.push_back(terrain.pyramid().bin(child));
-        }
+        tiles[i].firstChild = tiles.size();
+        for (const TileId& child : id.children()) tiles.emplace_back(terrain, child);
     }
 }
 
 // What is true of each tile. Bins nest: what lies in a tile outside is outside.
-void judge(TileTree& tree, const Terrain& terrain, const Camera& camera) {
+void judge(std::vector<TreeTile>& tiles, const Terrain& terrain, const Camera& camera) {
     const Frustum frustum(camera);
-    const auto& hulls = std::get<indexOf(Method::Hull)>(tree.bins);
-    for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-        TreeTile& tile = tree.tiles[i];
-        if (!tile.isOutside) tile.isOutside = classify(hulls[i], frustum) == core::Side::Outside;
-        if (!tile.isOutside) tile.witness = findWitness(terrain.ellipsoid(), tree.boxes[i], camera);
+    for (TreeTile& tile : tiles) {
+        if (!tile.isOutside) tile.isOutside = tile.bins.classify(Method::Hull, frustum) == core::Side::Outside;
+        if (!tile.isOutside) tile.witness = findWitness(terrain.ellipsoid(), tile.box, camera);
         for (std::size_t child = 0; child < 4 && !tile.isLeaf(); ++child)
-            tree.tiles[tile.firstChild + child].isOutside = tile.isOutside;
+            tiles[tile.firstChild + child].isOutside = tile.isOutside;
     }
     // Samples stand closer in the children: what is found there is a point of the parent too.
-    for (std::size_t i = tree.tiles.size(); i-- > 0;) {
-        TreeTile& tile = tree.tiles[i];
+    for (std::size_t i = tiles.size(); i-- > 0;) {
+        TreeTile& tile = tiles[i];
         for (std::size_t child = 0; child < 4 && !tile.isLeaf() && !tile.witness; ++child)
-            tile.witness = tree.tiles[tile.firstChild + child].witness;
+            tile.witness = tiles[tile.firstChild + child].witness;
     }
 }
 
@@ -71,10 +67,9 @@ void keepAllBelow(const TileTree& tree, std::size_t tile, std::vector<Verdict>& 
     }
 }
 
-template <class Bin>
-void cullTile(const TileTree& tree, const std::vector<Bin>& bins, const Frustum& frustum, std::size_t tile,
+void cullTile(const TileTree& tree, Method method, const Frustum& frustum, std::size_t tile,
               std::vector<Verdict>& verdicts) {
-    switch (classify(bins[tile], frustum)) {
+    switch (tree.tiles[tile].bins.classify(method, frustum)) {
         case core::Side::Outside:
             verdicts[tile] = Verdict::Outside;
             return;
@@ -87,28 +82,23 @@ void cullTile(const TileTree& tree, const std::vector<Bin>& bins, const Frustum&
     verdicts[tile] = Verdict::Straddling;
     if (tree.tiles[tile].isLeaf()) return;
     const std::size_t first = tree.tiles[tile].firstChild;
-    for (std::size_t child = first; child < first + 4; ++child) cullTile(tree, bins, frustum, child, verdicts);
+    for (std::size_t child = first; child < first + 4; ++child) cullTile(tree, method, frustum, child, verdicts);
 }
 
 }  // namespace
 
-TileTree::TileTree(const Terrain& terrain, const Camera& camera, double factor) {
-    for (int y = 0; y < TileId::kStartRows; ++y) {
-        for (int x = 0; x < TileId::kStartColumns; ++x) {
-            tiles.push_back({{0, x, y}, TreeTile::kNone, false, std::nullopt});
-            boxes.push_back(terrain.pyramid().bin({0, x, y}));
-        }
-    }
-    divide(*this, terrain, camera, factor);
-    bins = methodBins(terrain.ellipsoid(), boxes);
-    judge(*this, terrain, camera);
+TileTree::TileTree(const Terrain& terrain, const Camera& camera) {
+    for (int y = 0; y < TileId::kStartRows; ++y)
+        for (int x = 0; x < TileId::kStartColumns; ++x) tiles.emplace_back(terrain, TileId{0, x, y});
+    divide(tiles, terrain, camera);
+    judge(tiles, terrain, camera);
 }
 
-void cull(const TileTree& tree, const Frustum& frustum, Method method, std::vector<Verdict>& verdicts) {
-    withBins(tree.bins, method, [&](const auto& bins) {
-        for (std::size_t start = 0; start < TileTree::kStartTiles; ++start)
-            cullTile(tree, bins, frustum, start, verdicts);
-    });
+std::vector<Verdict> cull(const TileTree& tree, const Frustum& frustum, Method method) {
+    std::vector<Verdict> verdicts(tree.tiles.size(), Verdict::Untested);
+    for (std::size_t start = 0; start < TileTree::kStartTiles; ++start)
+        cullTile(tree, method, frustum, start, verdicts);
+    return verdicts;
 }
 
 }  // namespace osgAnalyticBin::paper

@@ -15,7 +15,12 @@ namespace osgAnalyticBin::paper {
 struct TreeTile {
     static constexpr std::size_t kNone = 0;
 
+    TreeTile(const Terrain& terrain, const TileId& tile)
+        : id(tile), box(terrain.pyramid().bin(tile)), bins(terrain.ellipsoid(), box) {}
+
     TileId id;
+    core::GeodeticBin box;
+    TileBins bins;
     std::size_t firstChild = kNone;  // four in a row; a start tile is nobody's child
     bool isOutside = false;          // proven: a plane parts the tile, or an ancestor, from the frustum
     std::optional<Witness> witness;  // proven: this point of the tile is in the frustum
@@ -23,17 +28,14 @@ struct TreeTile {
     [[nodiscard]] bool isLeaf() const noexcept { return firstChild == kNone; }
 };
 
-/// The 128 start tiles and what they are divided into: a tile is divided while it is nearer to the eye than `factor`
-/// times its width, down to the pyramid's deepest level, whether it is in the frustum or not.
-/// Source: [JJ] section 4.
+/// The 128 start tiles and what they are divided into: a tile is divided while it is nearer to the eye than three of
+/// its widths, down to the pyramid's deepest level, whether it is in the frustum or not. Source: [JJ] section 4.
 struct TileTree {
     static constexpr std::size_t kStartTiles = 128;
 
-    TileTree(const Terrain& terrain, const Camera& camera, double factor);
+    TileTree(const Terrain& terrain, const Camera& camera);
 
     std::vector<TreeTile> tiles;  // the start tiles first, parents before children
-    std::vector<core::GeodeticBin> boxes;
-    MethodBins bins;
 };
 
 /// How a method judged a tile.
@@ -47,7 +49,7 @@ enum class Verdict : std::uint8_t { Untested, Outside, Straddling, Inside, Withi
 }
 
 /// The recursion of [JJ]: outside ends it, inside keeps all below without a test, else the children are tested.
-/// Writes a verdict for every tile that it comes to. Requires: `verdicts` has an element for every tile, Untested.
-void cull(const TileTree& tree, const Frustum& frustum, Method method, std::vector<Verdict>& verdicts);
+/// Returns: a verdict for every tile.
+[[nodiscard]] std::vector<Verdict> cull(const TileTree& tree, const Frustum& frustum, Method method);
 
 }  // namespace osgAnalyticBin::paper

@@ -21,12 +21,6 @@ constexpr double kGrazing = 1e-9;
 // A position of the unit cube, in latitude, longitude and altitude.
 using Shares = glm::dvec3;
 
-core::Geodetic positionAt(const core::GeodeticBin& bin, const Shares& shares) {
-    return {bin.latitude().lower + shares.x * bin.latitude().width(),
-            bin.longitude().lower + shares.y * bin.longitude().width(),
-            bin.altitude().lower + shares.z * bin.altitude().width()};
-}
-
 double depthOf(const glm::dvec3& point, const std::array<core::Plane, 4>& planes) {
     double least = std::numeric_limits<double>::infinity();
     for (const core::Plane& plane : planes) least = std::min(least, plane.distance(point));
@@ -88,25 +82,31 @@ bool isInSight(const core::Ellipsoid& ellipsoid, const glm::dvec3& eye, const gl
 
 }  // namespace
 
+core::Geodetic positionIn(const core::GeodeticBin& bin, const glm::dvec3& shares) noexcept {
+    return {bin.latitude().lower + shares.x * bin.latitude().width(),
+            bin.longitude().lower + shares.y * bin.longitude().width(),
+            bin.altitude().lower + shares.z * bin.altitude().width()};
+}
+
 std::optional<Witness> findWitness(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
                                    const Camera& camera) {
     const std::array<core::Plane, 4> planes = camera.planes();
-    const auto depth = [&](const Shares& shares) { return depthOf(ellipsoid.toEcef(positionAt(bin, shares)), planes); };
+    const auto depth = [&](const Shares& shares) { return depthOf(ellipsoid.toEcef(positionIn(bin, shares)), planes); };
     const Best best = deepest(depth, 3);
     if (!(best.depth > 0.0)) return std::nullopt;
-    return Witness{positionAt(bin, best.shares), best.depth};
+    return Witness{positionIn(bin, best.shares), best.depth};
 }
 
 std::optional<Witness> findTerrainWitness(Terrain& terrain, const core::GeodeticBin& bin, const Camera& camera) {
     const std::array<core::Plane, 4> planes = camera.planes();
     const auto depth = [&](const Shares& shares) {
-        const glm::dvec3 point = terrain.ellipsoid().toEcef(terrain.onSurface(positionAt(bin, shares)));
+        const glm::dvec3 point = terrain.ellipsoid().toEcef(terrain.onSurface(positionIn(bin, shares)));
         if (!isInSight(terrain.ellipsoid(), camera.eye, point)) return -std::numeric_limits<double>::infinity();
         return depthOf(point, planes);
     };
     const Best best = deepest(depth, 2);
     if (!(best.depth > 0.0)) return std::nullopt;
-    return Witness{terrain.onSurface(positionAt(bin, best.shares)), best.depth};
+    return Witness{terrain.onSurface(positionIn(bin, best.shares)), best.depth};
 }
 
 }  // namespace osgAnalyticBin::paper

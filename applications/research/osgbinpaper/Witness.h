@@ -7,7 +7,6 @@
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
-#include <functional>
 #include <optional>
 
 namespace osgAnalyticBin::paper {
@@ -17,6 +16,9 @@ struct Witness {
     core::Geodetic position;
     double depth = 0.0;  // metres from the nearest side of the frustum
 };
+
+/// The position at shares, from 0 to 1, of a bin's latitudes, longitudes and altitudes.
+[[nodiscard]] core::Geodetic positionIn(const core::GeodeticBin& bin, const glm::dvec3& shares) noexcept;
 
 /// Looks for the point of the bin that is deepest inside the frustum: a grid of samples, then ever smaller steps from
 /// the best.

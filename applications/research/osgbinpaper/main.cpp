@@ -3,15 +3,17 @@
 
 #include "Failure.h"
 #include "Figures.h"
-#include "Output.h"
 #include "ProgramRun.h"
+#include "ProgressLine.h"
 #include "TextFile.h"
 
+#include <osgAnalyticBin/Version.h>
+
+#include <CLI/CLI.hpp>
 #include <cpl_error.h>
 #include <gdal.h>
 
 #include <iostream>
-#include <optional>
 
 namespace {
 
@@ -22,23 +24,60 @@ using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::paper;
 
+struct Settings {
+    std::string dem = "/usr/share/ferret-vis/data/etopo5.cdf";
+    int levels = 6;
+    std::size_t cameras = 400;  // of each kind
+    std::string csv;
+    std::string plot;
+};
+
+void declare(CLI::App& app, Settings& settings) {
+    app.add_option("DEM", settings.dem,
+                   "elevation raster that GDAL reads, metres; 0 m where it has no data; cameras stand above it\n"
+                   "(default: " +
+                       settings.dem + ")");
+    app.add_option("--levels", settings.levels, "levels of tiles below the 16 x 8 start tiles, 0 to 8 (default: 6)")
+        ->check(CLI::Range(0, HeightPyramid::kDeepest));
+    app.add_option("--cameras", settings.cameras, "cameras of each of the six kinds of view (default: 400)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--csv", settings.csv, "write the counts to this file, a line for each view and method");
+    app.add_option("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
+    app.footer(
+        "Methods:\n"
+        "  corners    the eight corners of the bin        paper  nine points of the quadratic over a box grown by 1.1\n"
+        "  quadratic  the quadratic, with proven remainder and exact range        exact  the closed form\n"
+        "  box        the box along the axes of ECEF, for comparison\n"
+        "  hull       exact, and beyond the edges of the frustum: nearly the truth\n"
+        "Columns, sums over cameras:\n" +
+        meaningOfColumns() +
+        "\nExit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
+        "Example:\n  osgbinpaper --cameras 200 --csv paper.csv --plot figures\n");
+}
+
 void measure(const Settings& settings) {
-    std::optional<Gnuplot> gnuplot;
-    if (!settings.plotFolder.empty()) gnuplot.emplace(settings.plotFolder);
     GDALAllRegister();
     CPLSetErrorHandler(CPLQuietErrorHandler);
-    Progress progress(settings.isQuiet);
-    Terrain terrain(settings.dem, settings.levels, settings.floor, progress);
-    const Results results = runExperiment(terrain, settings.experiment, progress);
-    printTables(std::cout, results, settings.levels);
+    Terrain terrain(settings.dem, settings.levels);
+    osgAnalyticBin::support::ProgressLine progress(stderr);
+    const Results results = runExperiment(terrain, settings.cameras, [&](double share) {
+        if (progress.isDue()) progress.show(share, "osgbinpaper: ");
+    });
+    printTables(std::cout, results);
     if (!std::cout.flush()) throw Failure("cannot write the tables to standard output");
-    if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
-    if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
-    if (gnuplot) drawFigures(*gnuplot, terrain, settings.experiment.factor, results, progress);
+    if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results));
+    if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, figuresOf(terrain, results));
 }
 
 ExitCode run(int argc, char** argv) {
-    if (const std::optional<Settings> settings = readSettings(argc, argv)) measure(*settings);
+    Settings settings;
+    CLI::App app{
+        "Repeats the published experiment on culling by analytic bins (Ju & Jong): real terrain, a quadtree from 128\n"
+        "start tiles, random cameras, the same recursion for every method, and every verdict set against a proof.",
+        "osgbinpaper"};
+    app.set_version_flag("--version", std::string("osgbinpaper (osgAnalyticBin) ") + osgAnalyticBin::version());
+    declare(app, settings);
+    if (osgAnalyticBin::support::parseCommandLine(app, argc, argv)) measure(settings);
     return kSucceeded;
 }
 

@@ -97,8 +97,9 @@ bool applyMethod(const char*, const std::string& value, CullOptions& options, st
     if (method) options.method = *method;
     const bool isMoved = std::find(kMovedMethods.begin(), kMovedMethods.end(), value) != kMovedMethods.end();
     if (isMoved) {
-        error = "method=" + value + " is there for comparison alone: read DATABASE.(method=" + value +
-                ").binrival, or run osgbinbench --methods " + value;
+        error = "method=" + value +
+                " is there for comparison alone, in builds with OSGANALYTICBIN_RESEARCH: osgbinbench --methods " +
+                value;
     } else if (!method) {
         error = "unknown method \"" + value + "\" (use quadratic, exact, sphere or none)";
     }

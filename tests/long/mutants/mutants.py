@@ -18,7 +18,8 @@ from faults import FAULTS, SCENES
 
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
 # what a build needs; documents, data and other programs are not looked at
-PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/packed", "applications/rivals")
+PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/packed",
+         "applications/hull", "applications/research/rivals")
 LONGEST_RUN = 900  # seconds; a fault may make a test loop
 
 

@@ -45,11 +45,11 @@ using core::HorizonEye;
 using core::Plane;
 using core::PlaneMask;
 using core::Side;
+using hull::FrustumHull;
+using hull::ReverseBin;
 using rivals::BoxBin;
-using rivals::FrustumHull;
 using rivals::HorizonPoint;
 using rivals::OrientedBoxBin;
-using rivals::ReverseBin;
 
 constexpr std::uint64_t kTrialsPerChunk = 10000;
 

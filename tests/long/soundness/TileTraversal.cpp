@@ -37,10 +37,10 @@ using core::Plane;
 using core::PlaneMask;
 using core::QuadraticBin;
 using core::Side;
+using hull::FrustumHull;
+using hull::ReverseBin;
 using rivals::CornersBin;
-using rivals::FrustumHull;
 using rivals::PaperBin;
-using rivals::ReverseBin;
 
 // Tiles are refined while they are closer than this many of their widths.
 constexpr double kRefineWithin = 3.0;

@@ -82,7 +82,7 @@ for program in "$moved"/bin/*; do
 done
 
 echo "== the stock osgconv finds the plugins"
-for format in analyticbin binflight binrival proceduralglobe; do
+for format in analyticbin binflight proceduralglobe; do
     OSG_LIBRARY_PATH="$moved/$libdir" osgconv --format "$format" 2>&1 | grep -q "=" || fail "no plugin $format"
 done
 

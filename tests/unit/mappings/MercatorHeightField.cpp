@@ -24,7 +24,7 @@ double MercatorHeightField::remainder(const core::ParameterBox& box) const noexc
     const double l = box.halfSize.x / _radius;
     const double y = box.halfSize.y / _radius;
     const double h = box.halfSize.z;
-    // doc/theory/mappings.md, section 8: along east, and in the meridian plane
+    // doc/theory/mappings.md, section 6: along east, and in the meridian plane
     const double east = distance * c * (3.0 * cos2 * y * y * l + l * l * l) + 6.0 * c * s * y * l * h;
     const double meridian =
         distance * c * (std::sqrt(1.0 + 3.0 * c * c) * y * y * y + 3.0 * s * y * l * l) + 3.0 * c * h * (y * y + l * l);

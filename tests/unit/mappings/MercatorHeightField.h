@@ -12,7 +12,7 @@ namespace osgAnalyticBin::test {
 
 /// The formula of a height field in spherical Mercator, for AutodiffMapping: (easting, northing, altitude), all in
 /// metres, to earth-centred coordinates on a sphere. A tile of a web map is a parameter box of it.
-/// Source: doc/theory/mappings.md, section 8.
+/// Source: doc/theory/mappings.md, section 6.
 /// Guarantee: on tiles of zoom 4 and more the remainder is at most 2.5 times the model's error;
 /// tests: MercatorHeightField.*.
 class MercatorHeightField final {

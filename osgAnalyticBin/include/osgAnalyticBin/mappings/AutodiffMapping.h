@@ -87,7 +87,7 @@ public:
 
     /// How far a triangle mesh leaves the mapped box at most, when its vertices are the mapping of positions in the box
     /// and no triangle is wider than `cell` in any parameter: the margin that a bin of such a mesh needs.
-    /// Source: doc/theory/mappings.md, section 9.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
+    /// Source: doc/theory/mappings.md, section 7.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
     [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
         if constexpr (HasTriangleSagBound<F>::value) {
             return _formula.triangleSagBound(box, cell);

@@ -3,7 +3,6 @@
 
 #include "CullMethod.h"
 #include "Failure.h"
-#include "RivalOptions.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 
@@ -41,11 +40,10 @@ TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
 
 TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
-    EXPECT_EQ(names.size(), 22U);
+    EXPECT_EQ(names.size(), 12U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
-    for (const char* const name : {"sphere", "cluster", "cluster+raster", "box", "orientedbox+horizon+edges",
-                                   "exact+horizon+edges", "exact+horizon+edges+occlusion"})
+    for (const char* const name : {"sphere", "cluster", "exact+horizon+edges", "exact+horizon+edges+occlusion"})
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -63,9 +61,6 @@ TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
     EXPECT_TRUE(cullMethodFromName("none").cullsNothing);
     EXPECT_EQ(cullMethodFromName("sphere").clusters, Clusters::Remove);
     EXPECT_EQ(cullMethodFromName("cluster").clusters, Clusters::Fill);
-    EXPECT_EQ(cullMethodFromName("cluster+raster").clusters, Clusters::FillForRaster);
-    EXPECT_TRUE(cullMethodFromName("cluster+raster").usesRaster());
-    EXPECT_FALSE(cullMethodFromName("cluster+raster").usesBins());
     EXPECT_EQ(cullMethodFromName("quadratic+horizon").clusters, Clusters::Keep);
 }
 
@@ -87,32 +82,6 @@ TEST(CullMethod, PlainNamesCullByPlanesAlone) {
         EXPECT_TRUE(both.edges) << name;
     }
     EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
-}
-
-TEST(CullMethod, RulesOfOthersAreReadBySomethingElse) {
-    const auto rivalOf = [](const std::string& method, const std::string& binOptions = {}) {
-        const std::string scene = cullMethodFromName(method).sceneName("earth.osgb", binOptions);
-        const std::size_t begin = scene.find(".(") + 2;
-        std::string error;
-        const auto options = rivals::rivalOptionsFromText(scene.substr(begin, scene.find(").binrival") - begin), error);
-        EXPECT_TRUE(options) << scene << ": " << error;
-        return options.value_or(rivals::RivalOptions());
-    };
-    for (const char* const name : {"box", "orientedbox", "corners", "paper"}) {
-        EXPECT_TRUE(cullMethodFromName(name).usesBins() && cullMethodFromName(name).usesRivals()) << name;
-        const rivals::RivalOptions plain = rivalOf(name, "horizon=-5");
-        EXPECT_EQ(plain.rule, rivals::ruleFromName(name)) << name;
-        EXPECT_FALSE(plain.usesHorizon || plain.testsEdges) << name;
-        const rivals::RivalOptions both = rivalOf(std::string(name) + "+horizon+edges", "horizon=-5,skirts=all");
-        EXPECT_TRUE(both.usesHorizon && both.testsEdges) << name;
-        std::string error;
-        const auto ofBins = cullOptionsFromText(both.binOptions, error);
-        ASSERT_TRUE(ofBins) << error;
-        EXPECT_EQ(ofBins->horizon, -5.0) << name;
-        EXPECT_EQ(ofBins->skirts, SkirtUse::All) << name;
-        EXPECT_EQ(ofBins->occlusion, OcclusionUse::Off) << name;
-    }
-    EXPECT_FALSE(cullMethodFromName("exact+horizon").usesRivals());
 }
 
 TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
@@ -142,11 +111,27 @@ TEST(CullMethod, NamesThePseudoLoader) {
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
-    for (const char* const name :
-         {"spheres", "sphere+horizon", "sphere+raster", "exact+raster", "none+edges", "cluster+horizon",
-          "oracle+horizon", "orientedboxes", "exact+edges+horizon", "exact+horizon+horizon", "exact+", "+horizon", "",
-          "exact+occlusion", "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges",
-          "sphere+occlusion", "bins+horizon"})
+    for (const char* const name : {"spheres",
+                                   "sphere+horizon",
+                                   "sphere+raster",
+                                   "exact+raster",
+                                   "none+edges",
+                                   "cluster+horizon",
+                                   "oracle+horizon",
+                                   "orientedboxes",
+                                   "exact+edges+horizon",
+                                   "exact+horizon+horizon",
+                                   "exact+",
+                                   "+horizon",
+                                   "",
+                                   "exact+occlusion",
+                                   "exact+edges+occlusion",
+                                   "box+horizon+occlusion",
+                                   "exact+horizon+occlusion+edges",
+                                   "sphere+occlusion",
+                                   "bins+horizon",
+                                   "cluster+raster",
+                                   "paper"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

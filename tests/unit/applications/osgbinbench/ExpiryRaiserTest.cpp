@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ExpiryRaiser.h"
+#include "ClusterRemover.h"
 
 #include <gtest/gtest.h>
 #include <osg/Geode>

@@ -4,7 +4,7 @@
 // Diagrams: what their data say, and that gnuplot draws them. Skipped where gnuplot is not installed.
 
 #include "Failure.h"
-#include "Plot.h"
+#include "Output.h"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +18,8 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
+using report::Diagram;
+using report::plot;
 using support::Failure;
 
 const std::vector<std::string> kPoses{"down_1", "down_2", "far_1"};

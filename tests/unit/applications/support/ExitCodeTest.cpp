@@ -57,7 +57,6 @@ TEST_P(ExitCode, Is2ForAWrongCommandLine) {
 }
 
 const std::vector<UsedProgram> kPrograms{
-    {"osgbinassembly", "--parts 1 --cameras 1 --output @/absent/plant.osgb", {"--parts 0"}},
     {"osgbinbench",
      "--compare @/old.json @/new.json",
      {"", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
@@ -69,7 +68,7 @@ const std::vector<UsedProgram> kPrograms{
      "@/absent.tif -o @/earth.osgb",
      {"", "-o earth.osgb", "a.tif -o earth.ive", "a.tif -o earth.osgb --cells 7",
       "a.tif -o earth.osgb --update --overwrite", "a.tif -o earth.osgb -te 1 2 0 3"}},
-    {"osgbinpaper", "@/absent.tif --quiet", {"--levels 9", "--cameras none"}},
+    {"osgbinpaper", "@/absent.tif", {"--levels 9", "--cameras none"}},
     {"osgbinviewer", "@/absent.osgb", {"", "earth.osgb --options metod=exact", "earth.osgb --frobnicate"}}};
 
 INSTANTIATE_TEST_SUITE_P(Programs, ExitCode, testing::ValuesIn(kPrograms), [](const auto& program) {

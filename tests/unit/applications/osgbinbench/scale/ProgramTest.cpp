@@ -56,7 +56,7 @@ TEST(GlobePlugin, SaysWhatIsWrong) {
 TEST(ScaleProgram, TheOracleDrawsWhatItRepeats) {
     const TemporaryFolder folder;
     const Outcome outcome = runScale(
-        "--series depth,residents --levels 3 --methods exact+horizon+edges,oracle --residents 1,300 --poses 3 --cells "
+        "--series depth,residents --levels 3 --methods bins,oracle --residents 1,300 --poses 3 --cells "
         "4 "
         "--rounds 1 --json " +
         test::quoted(folder / "scale.json"));
@@ -83,8 +83,7 @@ TEST(ScaleProgram, WritesWhatItMeasured) {
     const json result = jsonFile(folder / "scale.json");
     ASSERT_EQ(result["depth"].size(), 6U);
     for (const json& row : result["depth"]) {
-        EXPECT_GT(row["deepest_tiles"], 0) << row;
-        EXPECT_GE(row["drawn_tiles"], row["deepest_tiles"]);
+        EXPECT_GT(row["drawn_tiles"], 0) << row;
         EXPECT_GE(row["tested_tiles"], row["kept_tiles"]);
         EXPECT_GT(row["cull_us_per_drawn_tile"], 0.0);
     }
@@ -99,7 +98,6 @@ TEST(ScaleProgram, WritesWhatItMeasured) {
     }
     ASSERT_EQ(result["memory"].size(), 4U);
     EXPECT_EQ(result["memory"][0]["method"], "no bins");
-    EXPECT_EQ(result["ratios"]["cull_us_per_drawn_tile"].size(), 3U);
     const std::string csv = test::textOfFile(folder / "scale.csv");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
     EXPECT_EQ(csv.find("series,levels,method,tested_tiles"), 0U);
@@ -119,15 +117,7 @@ TEST(ScaleProgram, DrawsFigures) {
     }
     EXPECT_EQ(files, (std::set<std::string>{"depth.csv", "depth.gp", "depth.png", "depth.svg", "flight.csv",
                                             "flight.gp", "flight.png", "flight.svg"}));
-    EXPECT_EQ(test::textOfFile(folder.path() + "/depth.csv").find("x,sphere,quadratic+horizon+edges,"), 0U);
-}
-
-TEST(ScaleProgram, SaysAtOnceThatGnuplotIsMissing) {
-    const TemporaryFolder folder;
-    const Outcome outcome = test::runStock(test::quoted(BENCH_FILE) + " scale --plot " + test::quoted(folder.path()),
-                                           Modules::Absent, std::string("PATH=/absent ") + kQuiet);
-    EXPECT_EQ(outcome.code, 1);
-    EXPECT_EQ(outcome.text, "osgbinbench scale: --plot: gnuplot failed; install the package gnuplot-nox\n");
+    EXPECT_EQ(test::textOfFile(folder.path() + "/depth.csv").find("x,sphere,bins,oracle"), 0U);
 }
 
 TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {

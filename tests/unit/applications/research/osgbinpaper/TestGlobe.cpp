@@ -35,9 +35,8 @@ TestGlobe::TestGlobe() : _file(writeHills(_folder, "globe.asc", -180.0, -90.0, 1
     GDALAllRegister();
 }
 
-Terrain TestGlobe::terrain(int deepestLevel, double floor) const {
-    Progress silent(true);
-    return Terrain(_file, deepestLevel, floor, silent);
+Terrain TestGlobe::terrain(int deepestLevel) const {
+    return Terrain(_file, deepestLevel);
 }
 
 }  // namespace osgAnalyticBin::paper

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const std::string& file() const { return _file; }
 
     /// Its terrain, with levels 0 to `deepestLevel`.
-    [[nodiscard]] Terrain terrain(int deepestLevel, double floor = 0.0) const;
+    [[nodiscard]] Terrain terrain(int deepestLevel) const;
 
 private:
     test::TemporaryFolder _folder;

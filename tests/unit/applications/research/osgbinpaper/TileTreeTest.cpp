@@ -19,8 +19,8 @@ protected:
     void forTrees(const Function& function) {
         for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
             for (std::size_t number = 0; number < 2; ++number) {
-                const Camera camera = randomCamera(_terrain, kind, number, 3);
-                function(TileTree(_terrain, camera, 3.0), camera);
+                const Camera camera = randomCamera(_terrain, kind, number);
+                function(TileTree(_terrain, camera), camera);
             }
         }
     }
@@ -38,11 +38,11 @@ TEST_F(TileTreeTest, IsDividedNearTheEye) {
             for (std::size_t child = 0; child < 4 && !tree.tiles[i].isLeaf(); ++child) {
                 EXPECT_EQ(tree.tiles[tree.tiles[i].firstChild + child].id.ancestor(tree.tiles[i].id.level),
                           tree.tiles[i].id);
-                EXPECT_TRUE(tree.boxes[i].contains(tree.boxes[tree.tiles[i].firstChild + child]));
+                EXPECT_TRUE(tree.tiles[i].box.contains(tree.tiles[tree.tiles[i].firstChild + child].box));
             }
         }
-        const double width = tree.boxes[deepest].latitude().width() * 6.4e6;
-        const glm::dvec3 center = wgs84().toEcef(tree.boxes[deepest].center());
+        const double width = tree.tiles[deepest].box.latitude().width() * 6.4e6;
+        const glm::dvec3 center = wgs84().toEcef(tree.tiles[deepest].box.center());
         const double least = deepest >= TileTree::kStartTiles ? glm::distance(center, camera.eye) : 0.0;
         EXPECT_LT(least, 9.0 * width);
     });
@@ -53,7 +53,7 @@ TEST_F(TileTreeTest, NoTileIsBothOutsideAndSeen) {
     std::size_t seen = 0;
     forTrees([&](const TileTree& tree, const Camera& camera) {
         for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-            const auto witness = findWitness(wgs84(), tree.boxes[i], camera);
+            const auto witness = findWitness(wgs84(), tree.tiles[i].box, camera);
             EXPECT_FALSE(tree.tiles[i].isOutside && witness) << i;
             outside += tree.tiles[i].isOutside ? 1U : 0U;
             seen += witness ? 1U : 0U;
@@ -68,7 +68,7 @@ TEST_F(TileTreeTest, AWitnessIsAPointOfTheTileInTheFrustum) {
         for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
             const auto& witness = tree.tiles[i].witness;
             if (!witness) continue;
-            EXPECT_TRUE(tree.boxes[i].contains(witness->position));
+            EXPECT_TRUE(tree.tiles[i].box.contains(witness->position));
             for (const core::Plane& plane : camera.planes())
                 EXPECT_GE(plane.distance(wgs84().toEcef(witness->position)), witness->depth);
             EXPECT_GT(witness->depth, 0.0);
@@ -90,8 +90,7 @@ TEST_F(TileTreeTest, TheRecursionEndsAtOutsideAndAtInside) {
     std::size_t untested = 0;
     forTrees([&](const TileTree& tree, const Camera& camera) {
         for (std::size_t method = 0; method < kMethods; ++method) {
-            std::vector<Verdict> verdicts(tree.tiles.size(), Verdict::Untested);
-            cull(tree, Frustum(camera), static_cast<Method>(method), verdicts);
+            const std::vector<Verdict> verdicts = cull(tree, Frustum(camera), static_cast<Method>(method));
             for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
                 EXPECT_TRUE(i >= TileTree::kStartTiles || isTested(verdicts[i]));
                 for (std::size_t k = 0; k < 4 && !tree.tiles[i].isLeaf(); ++k) {

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// The reverse test. Oracle: bins with a point known to be inside the frustum, by long double. Ten million more trials:
+// HullSoundness.cpp. Views as in flight: Tightness.cpp.
+
+#include "FrustumHull.h"
+
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <support/Numbers.h>
+#include <support/RandomBins.h>
+#include <support/RandomViews.h>
+#include <support/View.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::ExactGeodeticBin;
+using core::GeodeticBin;
+using core::Plane;
+using hull::FrustumHull;
+using hull::ReverseBin;
+
+TEST(FrustumHull, PartsNoBinFromAPointOfIt) {
+    Random random(320);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const MeetingPair pair(random);
+        const FrustumHull hull(pair.planes, pair.planes.size());
+        ASSERT_FALSE(isSeparated(ReverseBin(pair.exact, pair.bin), hull)) << "trial " << trial;
+    }
+}
+
+TEST(FrustumHull, FindsTheCorners) {
+    Random random(322);
+    for (int trial = 0; trial < 1000; ++trial) {
+        View view;
+        view.eye = 1e7 * random.direction();
+        view.lookAlong(random.direction(), random);
+        view.halfWidth = random.logUniform(0.05, 2.0);
+        const auto sides = view.planes();
+        const FrustumHull apex(sides, sides.size());
+        ASSERT_EQ(apex.cornerCount(), 4u) << "the apex, for every three of its planes";
+        EXPECT_LT(glm::distance(apex.corner(0), view.eye), 1e-5);
+        view.nearDistance = 10.0;
+        view.farDistance = 1e6;
+        const auto all = view.planes();
+        const FrustumHull box(all, all.size());
+        ASSERT_EQ(box.cornerCount(), 8u);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const glm::dvec3 local = box.corner(i) - view.eye;
+            const double depth = glm::dot(local, view.forward);
+            EXPECT_LT(std::min(std::abs(depth - 10.0), std::abs(depth - 1e6)), 1e-4);
+            EXPECT_NEAR(std::abs(glm::dot(local, view.right)), depth * view.halfWidth, 1e-4);
+            EXPECT_NEAR(std::abs(glm::dot(local, view.up)), depth * view.halfWidth, 1e-4);
+        }
+    }
+}
+
+TEST(FrustumHull, AnOrthographicFrustumHasCornersOnlyWithNearOrFar) {
+    View view;
+    view.orthographic = true;
+    EXPECT_EQ(FrustumHull(view.planes(), 4).cornerCount(), 0u);
+    view.nearDistance = 1.0;
+    EXPECT_EQ(FrustumHull(view.planes(), 5).cornerCount(), 4u);
+    view.farDistance = 2.0;
+    EXPECT_EQ(FrustumHull(view.planes(), 6).cornerCount(), 8u);
+}
+
+// A camera in space that looks away, upward: beyond the top of every bin below it, and beyond no single plane of a wide
+// view.
+TEST(FrustumHull, SeesThatAFrustumLiesBeyondTheTop) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({-20.0, 20.0}, {-20.0, 20.0}, {0.0, 1000.0});
+    View view;
+    view.eye = {6.4e6, 0.0, 0.0};
+    view.halfWidth = 3.0;
+    Random random(323);
+    view.lookAlong({1.0, 0.0, 0.0}, random);
+    const auto planes = view.planes();
+    const ExactGeodeticBin exact(wgs84(), bin);
+    EXPECT_TRUE(isSeparated(ReverseBin(exact, bin), FrustumHull(planes, 4)));
+    view.eye.x = 6.37e6;  // below the top
+    const auto lower = view.planes();
+    EXPECT_FALSE(isSeparated(ReverseBin(exact, bin), FrustumHull(lower, 4)));
+}
+
+TEST(ReverseBin, FacesHoldTheBin) {
+    Random random(325);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
+        const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e4);
+        const ReverseBin reverse(ExactGeodeticBin(ellipsoid, bin, margin), bin);
+        ASSERT_EQ(reverse.faceCount(), bin.longitude().width() < kPi ? 5u : 3u);
+        for (int i = 0; i < 20; ++i) {
+            const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
+            ASSERT_LE(length(point), reverse.reach());
+            for (std::size_t f = 0; f < reverse.faceCount(); ++f) ASSERT_GE(exactDistance(reverse.face(f), point), 0);
+        }
+    }
+}
+
+TEST(FrustumHull, NeedsUnitNormalsAndNumbers) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const ReverseBin reverse(ExactGeodeticBin(wgs84(), bin), bin);
+    View view;
+    view.eye = {6.4e6, 0.0, 0.0};
+    view.halfWidth = 3.0;
+    Random random(326);
+    view.lookAlong({1.0, 0.0, 0.0}, random);
+    std::vector<Plane> planes = view.planes();
+    ASSERT_TRUE(isSeparated(reverse, FrustumHull(planes, 4)));
+    for (Plane& plane : planes) plane.normal *= 1.0 + 1e-6;
+    EXPECT_DEBUG_DEATH(EXPECT_EQ(FrustumHull(planes, 4).cornerCount(), 0u), "hasUnitNormal");
+    const Plane away{{1.0, 0.0, 0.0}, -1e8};
+    const std::vector<Plane> broken{away, away, {{kNaN, 0.0, 0.0}, 0.0}, {{0.0, 1.0, 0.0}, kNaN}};
+    EXPECT_FALSE(isSeparated(reverse, FrustumHull(broken, 4)));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: the bin's exact range by long double; random positions of the bin; frusta that hold a point of the bin. Ten
+// million more trials: HullSoundness.cpp.
+
+#include "BoxBins.h"
+
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <support/Numbers.h>
+#include <support/RandomBins.h>
+#include <support/RandomViews.h>
+#include <support/View.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::Plane;
+using core::Side;
+using hull::FrustumHull;
+using rivals::BoxBin;
+using rivals::OrientedBoxBin;
+
+// Documented above BoxBin.
+constexpr double kBoxTightness = 160.0 * std::numeric_limits<double>::epsilon();
+
+template <class Box>
+class BoxBins : public testing::Test {};
+using Boxes = testing::Types<BoxBin, OrientedBoxBin>;
+TYPED_TEST_SUITE(BoxBins, Boxes);
+
+double farthest(const BinOracle& oracle) {
+    const core::Interval& altitude = oracle.bin().altitude();
+    return std::max(oracle.ellipsoid().equatorialRadius(), oracle.ellipsoid().polarRadius()) +
+           std::max(std::abs(altitude.lower), std::abs(altitude.upper));
+}
+
+TYPED_TEST(BoxBins, NeverContradictASample) {
+    Random random(400);
+    std::array<int, 3> verdicts{};
+    for (int trial = 0; trial < 20000; ++trial) {
+        const BinOracle oracle(randomEllipsoid(random), randomBin(random));
+        const double margin = random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4);
+        const Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+        const Side side = TypeParam(oracle.ellipsoid(), oracle.bin(), margin).classify(plane);
+        ++verdicts[static_cast<std::size_t>(side)];
+        if (side == Side::Straddling) continue;
+        for (int i = 0; i < 20; ++i) {
+            const Real distance =
+                exactDistance(plane, randomPointWithin(random, oracle.ellipsoid(), oracle.bin(), margin));
+            ASSERT_EQ(distance < 0, side == Side::Outside) << "trial " << trial;
+        }
+    }
+    for (const int count : verdicts) EXPECT_GT(count, 1000) << "every verdict must occur, or nothing is tested";
+}
+
+TYPED_TEST(BoxBins, NeverContradictTheExactRange) {
+    Random random(401);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const BinOracle oracle(randomEllipsoid(random), randomBin(random));
+        const Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+        const Side side = TypeParam(oracle.ellipsoid(), oracle.bin()).classify(plane);
+        const RealRange truth = oracle.distanceRange(plane);
+        if (side == Side::Outside) {
+            ASSERT_LT(truth.upper, oracle.rounding(plane)) << "trial " << trial;
+        }
+        if (side == Side::Inside) {
+            ASSERT_GE(truth.lower, -oracle.rounding(plane)) << "trial " << trial;
+        }
+    }
+}
+
+TYPED_TEST(BoxBins, TouchTheBinOnAllSides) {
+    Random random(402);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const BinOracle oracle(randomEllipsoid(random), randomBin(random));
+        const TypeParam box(oracle.ellipsoid(), oracle.bin());
+        for (std::size_t i = 0; i < TypeParam::kFaces; ++i) {
+            const Real gap = oracle.distanceRange(box.face(i)).lower;
+            ASSERT_GE(gap, 0) << "trial " << trial << " face " << i;
+            ASSERT_LE(gap, kBoxTightness * farthest(oracle)) << "trial " << trial << " face " << i;
+        }
+    }
+}
+
+TYPED_TEST(BoxBins, AreMadeOfTheirFaces) {
+    Random random(403);
+    for (int trial = 0; trial < 5000; ++trial) {
+        const BinOracle oracle(wgs84(), randomTile(random, random.integer(0, 8), randomAltitude(random)));
+        const TypeParam box(oracle.ellipsoid(), oracle.bin());
+        for (std::size_t i = 0; i < TypeParam::kFaces; ++i) {
+            Plane plane = box.face(i);
+            EXPECT_NEAR(glm::length(plane.normal), 1.0, 1e-15);
+            plane.offset += 0.001;
+            ASSERT_EQ(box.classify(plane), Side::Inside);
+            ASSERT_EQ(box.classify(plane.flipped()), Side::Outside);
+            plane.offset -= 0.002;
+            ASSERT_EQ(box.classify(plane), Side::Straddling);
+        }
+    }
+}
+
+TYPED_TEST(BoxBins, HoldTheMargin) {
+    const GeodeticBin tile = GeodeticBin::fromDegrees({10.0, 11.0}, {20.0, 21.0}, {0.0, 100.0});
+    const TypeParam bare(wgs84(), tile);
+    const TypeParam grown(wgs84(), tile, 250.0);
+    for (std::size_t i = 0; i < TypeParam::kFaces; ++i) {
+        EXPECT_NEAR(grown.face(i).offset - bare.face(i).offset, 250.0, 1e-5);
+    }
+}
+
+TYPED_TEST(BoxBins, KeepWhatHasNoClosedForm) {
+    const GeodeticBin deep = GeodeticBin::fromDegrees({10.0, 11.0}, {20.0, 21.0}, {-6.4e6, 100.0});
+    const TypeParam box(wgs84(), deep);
+    Random random(404);
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 normal = random.direction();
+        const RealVector point = geodeticToEcef(wgs84(), randomPosition(random, deep));
+        const Plane through{normal, static_cast<double>(-dot(real(normal), point))};
+        ASSERT_EQ(box.classify(through), Side::Straddling);
+    }
+    EXPECT_EQ(box.classify({{1.0, 0.0, 0.0}, -2e7}), Side::Outside);
+}
+
+TYPED_TEST(BoxBins, WhatIsNotANumberDecidesNothing) {
+    const GeodeticBin tile = GeodeticBin::fromDegrees({10.0, 11.0}, {20.0, 21.0}, {0.0, 100.0});
+    const TypeParam box(wgs84(), tile);
+    EXPECT_EQ(box.classify({{kNaN, 0.0, 0.0}, -1e8}), Side::Straddling);
+    EXPECT_EQ(box.classify({{1.0, 0.0, 0.0}, kNaN}), Side::Straddling);
+    EXPECT_EQ(TypeParam(wgs84(), tile, kNaN).classify({{1.0, 0.0, 0.0}, -1e8}), Side::Straddling);
+}
+
+TEST(OrientedBoxBin, StandsUprightOnItsTile) {
+    const GeodeticBin tile = GeodeticBin::fromDegrees({44.0, 46.0}, {9.0, 11.0}, {0.0, 1000.0});
+    const OrientedBoxBin box(wgs84(), tile);
+    const glm::dvec3 up =
+        glm::normalize(rounded(geodeticToEcef(wgs84(), {tile.center().latitude, tile.center().longitude, 1e12})));
+    EXPECT_NEAR(glm::dot(box.face(2).normal, up), 1.0, 1e-9);
+    EXPECT_NEAR(box.face(0).normal.z, 0.0, 1e-15) << "east is level with the equator";
+    EXPECT_GT(box.face(1).normal.z, 0.7) << "north";
+}
+
+TYPED_TEST(BoxBins, ReverseTestPartsNoBinFromAPointOfIt) {
+    Random random(405);
+    for (int trial = 0; trial < 50000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
+        const double margin = random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4);
+        const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
+        std::vector<Plane> planes = randomView(random, ellipsoid, bin, point).planes();
+        moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
+        ASSERT_FALSE(isSeparated(TypeParam(ellipsoid, bin, margin), FrustumHull(planes, planes.size())))
+            << "trial " << trial;
+    }
+}
+
+TYPED_TEST(BoxBins, ReverseTestFindsAFrustumBeyondAFace) {
+    Random random(406);
+    int found = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(0, 8), {0.0, 1000.0});
+        const TypeParam box(wgs84(), bin);
+        // A slab of the frustum that just does not reach the face: none of its own planes has the box outside.
+        const Plane face = box.face(static_cast<std::size_t>(random.integer(0, 5)));
+        View view;
+        view.eye = rounded(geodeticToEcef(wgs84(), randomPosition(random, bin))) - 1e7 * face.normal;
+        view.lookAlong(face.normal, random);
+        view.halfWidth = 3.0;
+        view.nearDistance = 1.0;
+        view.farDistance = -face.distance(view.eye) - 1.0;
+        std::vector<Plane> planes = view.planes();
+        planes.pop_back();  // without the far plane the frustum goes through the box
+        EXPECT_FALSE(isSeparated(box, FrustumHull(planes, planes.size())));
+        planes = view.planes();
+        found += isSeparated(box, FrustumHull(planes, planes.size())) ? 1 : 0;
+    }
+    EXPECT_EQ(found, 1000);
+}
+
+// Debug builds stop at planes without a unit normal; others must not cull by them.
+TYPED_TEST(BoxBins, PlanesWithoutAUnitNormalDecideNothing) {
+    const TypeParam box(wgs84(), GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
+        const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), -1e13};
+        EXPECT_DEBUG_DEATH(EXPECT_EQ(box.classify(plane), Side::Straddling), "hasUnitNormal");
+        EXPECT_DEBUG_DEATH(EXPECT_EQ(box.classify(plane.flipped()), Side::Straddling), "hasUnitNormal");
+    }
+    // to the tolerance they do
+    for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9})
+        EXPECT_EQ(box.classify({factor * glm::dvec3(0.6, 0.0, 0.8), -1e8}), Side::Outside);
+}
+
+TYPED_TEST(BoxBins, OfAMapAreTheBoxItself) {
+    const GeodeticBin bin({0.1, 0.2}, {0.3, 0.5}, {-10.0, 900.0});
+    const TypeParam box(Ellipsoid::plane(), bin, 1.0);
+    const core::QuadraticBin quadratic(core::GeodeticMapping(Ellipsoid::plane()), core::parameterBox(bin), 1.0);
+    Random random(4813);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Plane plane{random.direction(), random.uniform(-3e6, 3e6)};
+        EXPECT_EQ(box.classify(plane), quadratic.classify(plane));
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
