@@ -168,7 +168,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     folder.lock();
     if (!settings.overwrite) folder.requireNone();
     const BuildState state(folder.stateFolder());
-    const std::vector<Task> plan = planTasks(settings, layout);
+    const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
     meetings.hold();
@@ -207,7 +207,7 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
         prepareNodeFiles();
         const Settings settings = withDeclaredRadii(given);
         const TileLayout layout = layoutFor(settings, DemMosaic(settings));
-        const std::vector<Task> plan = planTasks(settings, layout);
+        const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
         meetings.hold();
         const DatabaseFolder folder(settings.output);
         const TileFiles files = folder.files(layout);

@@ -224,7 +224,7 @@ private:
 };
 
 std::vector<Task> changedTasks(Updater updater, const TileLayout& layout) {
-    std::vector<Task> tasks = planTasks(updater.builder().mosaic(), updater.builder().depths(), layout);
+    std::vector<Task> tasks = planTasks(updater.builder().mosaic(), layout);
     tasks.erase(
         std::remove_if(tasks.begin(), tasks.end(), [&](const Task& task) { return !updater.hasChanged(task.tile); }),
         tasks.end());

@@ -157,6 +157,12 @@ HeightRange DemMosaic::range(const RectDeg& rect) {
     return range;
 }
 
+bool DemMosaic::hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept {
+    return std::any_of(_sources.begin(), _sources.end(), [&](const auto& source) {
+        return TileLayout::isFiner(source->grid().resolutionDeg(), spacingDeg) && source->grid().overlap(rect) > 0.0;
+    });
+}
+
 bool DemMosaic::hasFinerData(const RectDeg& rect, double spacingDeg) {
     return std::any_of(_sources.begin(), _sources.end(), [&](const auto& source) {
         return TileLayout::isFiner(source->grid().resolutionDeg(), spacingDeg) && source->hasData(rect);

@@ -52,7 +52,8 @@ public:
     /// Heights of every post, of every raster used in the rectangle, that has part in it.
     [[nodiscard]] HeightRange range(const RectDeg& rect);
 
-    /// Whether a raster finer than the spacing has data in the rectangle.
+    /// Whether a raster finer than the spacing has a part in the rectangle, and whether it has data there.
+    [[nodiscard]] bool hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept;
     [[nodiscard]] bool hasFinerData(const RectDeg& rect, double spacingDeg);
 
     void prefetch(const RectDeg& rect);

@@ -26,19 +26,19 @@ constexpr double kFewestTasks = 100.0;
 // Half a minute's work: as much is lost in each thread when a run is ended, and waited for at its end.
 constexpr double kMostWeight = 4096.0;
 
-Task taskFor(const TileId& tile, DemMosaic& mosaic, const TileLayout& layout) {
+Task taskFor(const TileId& tile, const DemMosaic& mosaic, const TileLayout& layout) {
     return {tile, 1.0 + mosaic.posts(tile.rect()) / (static_cast<double>(layout.cells()) * layout.cells())};
 }
 
-void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout,
-           std::vector<Task>& tasks) {
-    if (task.weight <= most || !depths.hasChildren(task.tile)) {
+/// In voids, tasks may be of tiles that are not there; nobody asks for what they leave.
+void split(const Task& task, double most, const DemMosaic& mosaic, const TileLayout& layout, std::vector<Task>& tasks) {
+    const TileId& tile = task.tile;
+    if (task.weight <= most || tile.level >= layout.deepestLevel() || !layout.isInRegion(tile) ||
+        !mosaic.hasFinerRaster(tile.rect(), layout.spacingDeg(tile.level))) {
         tasks.push_back(task);
         return;
     }
-    for (const TileId& child : task.tile.children()) {
-        split(taskFor(child, mosaic, layout), most, mosaic, depths, layout, tasks);
-    }
+    for (const TileId& child : tile.children()) split(taskFor(child, mosaic, layout), most, mosaic, layout, tasks);
 }
 
 /// Does a task, unless an earlier run has done it and its files are whole.
@@ -80,7 +80,7 @@ double weightOf(const std::vector<Task>& tasks) {
     return sum;
 }
 
-std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
+std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
     std::vector<Task> starts;
     double sum = 0.0;
     for (const TileId& tile : layout.startTiles()) {
@@ -89,14 +89,8 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
     }
     std::vector<Task> tasks;
     const double most = std::min(sum / kFewestTasks, kMostWeight);
-    for (const Task& start : starts) split(start, most, mosaic, depths, layout, tasks);
+    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
     return tasks;
-}
-
-std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
-    DemMosaic mosaic(settings, &layout);
-    EdgeDepths depths(mosaic, layout);
-    return planTasks(mosaic, depths, layout);
 }
 
 std::optional<Task> TaskBoard::next() {

@@ -5,7 +5,6 @@
 
 #include "BuildState.h"
 #include "DemMosaic.h"
-#include "EdgeDepths.h"
 #include "ProgressLine.h"
 #include "Ranks.h"
 #include "Settings.h"
@@ -92,8 +91,8 @@ struct Task {
 
 /// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
 /// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
-[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout);
-[[nodiscard]] std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout);
+/// No raster is read.
+[[nodiscard]] std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout);
 
 [[nodiscard]] double weightOf(const std::vector<Task>& tasks);
 
