@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 #include "BuildSources.h"
-#include "BuildState.h"
-#include "Database.h"
 #include "DatabaseFolder.h"
 #include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
-#include "NodeFile.h"
 #include "TaskWork.h"
-#include "TileBuilder.h"
+#include "TileFiles.h"
 
 #include <chrono>
 #include <exception>
@@ -128,14 +125,7 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
                 Meetings& meetings, StartTiles* starts) {
     TaskBoard board(partsOf(ranks, plan));
     if (ranks.count() > 1 && starts) board.hold();
-    const FinishedTasks finished = finishedTasks(site, plan);
-    Threads threads(site.settings.threads, board, [&] {
-        TileBuilder builder(site.settings, site.layout, site.files);
-        doTasks(site, board, builder);
-        if (!starts || board.hasFailed()) return;
-        builder.setFinishedTasks(finished);
-        starts->build(builder);
-    });
+    Threads threads(site.settings.threads, board, [&] { work(site, plan, board, starts); });
     if (ranks.count() > 1) {
         meetings.watch(board, [&] { return threads.areRunning() && !board.isFinished(); });
         try {
@@ -175,7 +165,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
     meetings.setInterrupted([&] {
         std::cerr << "osgbindem: " + interruption(folder, state, plan.size()) + "\n" << std::flush;
-        Ranks::leaveAfterSignal();
+        leaveAfterSignal();
     });
     try {
         const TileFiles files = folder.files(layout);
@@ -202,7 +192,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
 
 /// Every rank but the first.
 void helpFirstRank(const Settings& given, const Ranks& ranks) {
-    Meetings meetings(ranks, Ranks::leaveAfterSignal);
+    Meetings meetings(ranks, leaveAfterSignal);
     try {
         prepareNodeFiles();
         const Settings settings = withDeclaredRadii(given);

@@ -48,11 +48,17 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
         site.progress.addKnown(task.weight);
         return;
     }
-    builder.setLeafDone(
-        [&](const TileId& leaf) { site.progress.add(std::ldexp(task.weight, 2 * (task.tile.level - leaf.level))); });
+    double left = task.weight;
+    builder.setLeafDone([&](const TileId& leaf) {
+        const double share = std::ldexp(task.weight, 2 * (task.tile.level - leaf.level));
+        left -= share;
+        site.progress.add(share);
+    });
     (void)builder.takeFileSum();
     SurveyedTile tile = builder.survey(task.tile);
+    builder.setLeafDone({});
     site.state.keep({std::move(tile), builder.takeFileSum()});
+    site.progress.add(left);
 }
 
 }  // namespace
@@ -141,23 +147,24 @@ void TaskBoard::rethrow() const {
     if (_error) std::rethrow_exception(_error);
 }
 
-void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder) {
+void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
+    TileBuilder builder(site.settings, site.layout, site.files);
+    const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
+    builder.setFinishedTasks(standing);
     while (const auto task = tasks.next()) {
         doTask(*task, site, builder);
         tasks.finish();
     }
-    builder.setLeafDone({});
-}
-
-FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks) {
-    std::set<TileId> tiles;
-    for (const Task& task : tasks) tiles.insert(task.tile);
-    return [&site, tiles](const TileId& tile) -> std::optional<SurveyedTile> {
-        if (tiles.count(tile) == 0) return std::nullopt;
+    if (!starts || tasks.hasFailed()) return;
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
+        if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
         auto record = site.state.find(tile, site.layout);
         if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
         return std::move(record->tile);
-    };
+    });
+    starts->build(builder);
 }
 
 Threads::Threads(int count, TaskBoard& tasks, const std::function<void()>& body) : _running(count) {

@@ -5,6 +5,8 @@
 
 #include "TileLayout.h"
 
+#include <osg/Node>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -59,5 +61,12 @@ private:
     std::string _finalName;
     int _startLevel;
 };
+
+/// Makes ready what OpenSceneGraph loads on first use, so that threads find everything loaded.
+/// Throws Failure when the classes of a database cannot be stored.
+void prepareNodeFiles();
+
+/// The bytes of an .osgb file with the node. Throws Failure.
+[[nodiscard]] std::string nodeFileBytes(const osg::Node& node, bool compress);
 
 }  // namespace osgbindem

@@ -5,7 +5,6 @@
 
 #include "Failure.h"
 #include "Interruption.h"
-#include "RasterFile.h"
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
@@ -180,10 +179,10 @@ private:
 };
 
 VoidFill::Below VoidFill::at(int column, int row) {
-    const int blocksPerRow = (_shape.width + kVoidBlock - 1) / kVoidBlock;
+    const int blocksPerRow = (_width + kVoidBlock - 1) / kVoidBlock;
     const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
-                            std::min(kVoidBlock, _shape.width - column / kVoidBlock * kVoidBlock),
-                            std::min(kVoidBlock, _shape.height - row / kVoidBlock * kVoidBlock)};
+                            std::min(kVoidBlock, _width - column / kVoidBlock * kVoidBlock),
+                            std::min(kVoidBlock, _height - row / kVoidBlock * kVoidBlock)};
     const int number = row / kVoidBlock * blocksPerRow + column / kVoidBlock;
     auto found = _blocks.find(number);
     if (found == _blocks.end()) {
@@ -205,24 +204,24 @@ void VoidFill::read(Window& window) const {
     const PixelWindow& block = window.block;
     PixelWindow& posts = window.posts;
     // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
-    const int west = _shape.isGlobal ? block.column - kBorder : std::max(block.column - kBorder, -1);
-    const int east = _shape.isGlobal ? block.column + block.width + kBorder
-                                     : std::min(block.column + block.width + kBorder, _shape.width + 1);
+    const int west = isGlobal() ? block.column - kBorder : std::max(block.column - kBorder, -1);
+    const int east =
+        isGlobal() ? block.column + block.width + kBorder : std::min(block.column + block.width + kBorder, _width + 1);
     const int first = std::max(block.row - kBorder, -1);
-    const int last = std::min(block.row + block.height + kBorder, _shape.height + 1);
+    const int last = std::min(block.row + block.height + kBorder, _height + 1);
     posts = {west, first, east - west, last - first};
     window.heights.assign(static_cast<std::size_t>(posts.width) * static_cast<std::size_t>(posts.height),
                           std::numeric_limits<double>::quiet_NaN());
     const int firstInside = std::max(first, 0);
-    const int rows = std::min(last, _shape.height) - firstInside;
+    const int rows = std::min(last, _height) - firstInside;
     std::vector<double> part;
     for (int column = west; column < east;) {
         const int inside = inRaster(column);
-        if (inside < 0 || inside >= _shape.width) {
+        if (inside < 0 || inside >= _width) {
             ++column;
             continue;
         }
-        const int width = std::min(east - column, _shape.width - inside);
+        const int width = std::min(east - column, _width - inside);
         _read({inside, firstInside, width, rows}, part);
         for (int row = 0; row < rows; ++row) {
             const auto from = part.begin() + static_cast<std::ptrdiff_t>(row) * width;
@@ -237,10 +236,11 @@ void VoidFill::read(Window& window) const {
 void VoidFill::findOutside(Window& window) const {
     const PixelWindow& posts = window.posts;
     window.isOutside.assign(window.heights.size(), true);
-    for (const PixelWindow& part : _shape.parts) {
-        const int turns = _shape.isGlobal ? 1 : 0;
+    for (const RasterLayer::Member& member : _layer.members()) {
+        const PixelWindow& part = member.window;
+        const int turns = isGlobal() ? 1 : 0;
         for (int turn = -turns; turn <= turns; ++turn) {
-            const int column = part.column + turn * _shape.width;
+            const int column = part.column + turn * _width;
             const int west = std::max(column - posts.column, 0);
             const int east = std::min(column + part.width - posts.column, posts.width);
             const int first = std::max(part.row - posts.row, 0);
