@@ -4,7 +4,7 @@
 #include "TerrainPicture.h"
 
 #include "Angles.h"
-#include "Hypsometry.h"
+#include "Relief.h"
 
 #include <glm/geometric.hpp>
 
@@ -60,7 +60,7 @@ TerrainPicture::Vertex TerrainPicture::vertex(Terrain& terrain, const osgbindem:
                                     (height(stepDeg, 0.0) - height(-stepDeg, 0.0)) / metres);
     // The sea's surface, and where the raster has no data.
     const bool isWater = here == 0.0 || here <= terrain.floor();
-    const osgbindem::Rgb rgb = osgbindem::hypsometricColour(isWater ? kWater : here);
+    const osg::Vec4ub rgb = colourAt(hypsometricStops(), isWater ? kWater : here);
     const glm::dvec3 point = terrain.ellipsoid().toEcef(
         {position.latitudeDeg * kRadiansPerDegree, position.longitudeDeg * kRadiansPerDegree, here});
     const glm::dvec3 offset = point - _camera.eye;
