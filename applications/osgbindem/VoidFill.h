@@ -66,12 +66,12 @@ private:
         std::vector<bool> isRival;
     };
 
-    void takeRivals(Window& window) const;
     [[nodiscard]] Block filled(const PixelWindow& block) const;
     void read(Window& window) const;
-    void findOutside(Window& window) const;
-    void interpolateNarrow(const Window& window, std::vector<float>& result) const;
-    void addDifferences(const Window& window, const std::vector<float>& distances, std::vector<float>& result) const;
+    void findKinds(Window& window) const;
+    /// The heights of a window with its narrow voids interpolated, and its differences from what coarser rasters have.
+    [[nodiscard]] static std::vector<float> interpolated(const Window& window);
+    [[nodiscard]] std::vector<float> differencesOf(const Window& window) const;
     /// The column of a raster round the globe that stands for one beyond its ends.
     [[nodiscard]] int inRaster(int column) const { return isGlobal() ? ((column % _width) + _width) % _width : column; }
     [[nodiscard]] bool isGlobal() const { return _layer.grid().isGlobal(); }
