@@ -9,6 +9,7 @@
 #include "TaskWork.h"
 #include "TileFiles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -125,12 +126,16 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
                 Meetings& meetings, StartTiles* starts) {
     TaskBoard board(partsOf(ranks, plan));
     if (ranks.count() > 1 && starts) board.hold();
-    Threads threads(site.settings.threads, board, [&] { work(site, plan, board, starts); });
+    Threads threads = startThreads(site, plan, board, starts);
     if (ranks.count() > 1) {
-        meetings.watch(board, [&] { return threads.areRunning() && !board.isFinished(); });
+        const auto isRunning = [](const std::future<void>& thread) {
+            return thread.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+        };
+        meetings.watch(board,
+                       [&] { return std::any_of(threads.begin(), threads.end(), isRunning) && !board.isFinished(); });
         try {
             if (!starts) {
-                threads.join();
+                threads.clear();
                 board.rethrow();
                 osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back of it
             }
@@ -140,7 +145,7 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
             board.fail(std::current_exception());
         }
     }
-    threads.join();
+    threads.clear();
     if (starts && board.hasFailed()) {
         ranks.sendFailure({});
         meetings.giveUp();

@@ -109,7 +109,7 @@ public:
         return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
             const auto neighbour = tile.neighbour(edge);
             if (!neighbour) return false;
-            return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
+            return _area.touches(neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour);
         });
     }
 
@@ -120,23 +120,14 @@ private:
         for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
         return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
     }
-    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const {
-        return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
-    }
     [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const {
-        for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
+        for (int level = _layout.startLevel(); level < neighbour.level; ++level) {
             const TileId above = neighbour.ancestor(level);
-            if (isRefinedOtherwise(above)) return true;
-            if (!_depths.hasChildren(above)) return false;
+            const bool hasChildren = _depths.hasChildren(above);
+            if (_area.touches(above.rect()) && hasChildren != _hadChildren(above)) return true;
+            if (!hasChildren) return false;
         }
         return false;
-    }
-    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
-        if (!_area.touches(neighbour.rect())) return false;
-        if (isRefinedOtherwise(neighbour)) return true;
-        if (!_depths.hasChildren(neighbour)) return false;
-        const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
-        return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
     }
 
     const ChangedArea& _area;
@@ -242,8 +233,7 @@ void updateDatabase(const Settings& given) {
                     }};
     TaskBoard board(tasks);
     StartTiles starts(settings, layout);
-    Threads threads(settings.threads, board, [&] { work(site, tasks, board, &starts); });
-    threads.join();
+    startThreads(site, tasks, board, &starts).clear();
     if (board.hasFailed()) folder.clear();
     board.rethrow();
     folder.merge(starts.rootBytes(), sources, {removed.tiles.begin(), removed.tiles.end()});

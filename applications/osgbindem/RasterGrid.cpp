@@ -71,14 +71,7 @@ double RasterGrid::overlap(const RectDeg& rect) const noexcept {
 }
 
 bool RasterGrid::covers(const RectDeg& rect) const noexcept {
-    const double half = 0.5 + kSnap;
-    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
-    if (low < -half || high > _height - 1 + half) return false;
-    if (_isGlobal) return true;
-    const double turn = 360.0 / _dx;
-    const double west = columnOf(rect.west) + half;
-    const double start = west - std::floor(west / turn) * turn - half;
-    return start + (rect.east - rect.west) / _dx <= _width - 1 + half;
+    return overlap(rect) >= (1.0 - kSnap) * (rect.east - rect.west) * (rect.north - rect.south);
 }
 
 std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const noexcept {

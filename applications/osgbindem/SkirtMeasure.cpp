@@ -21,17 +21,6 @@ constexpr std::size_t kMostKnown = 100000;
 
 }  // namespace
 
-Edge oppositeOf(Edge edge) {
-    return static_cast<Edge>(static_cast<std::size_t>(edge) ^ 1U);  // they stand in pairs
-}
-
-std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge) {
-    const std::array<TileId, 4> all = tile.children();
-    const bool isParallel = edge == Edge::South || edge == Edge::North;
-    const std::size_t first = edge == Edge::North ? 2 : edge == Edge::East ? 1 : 0;
-    return {all[first], all[first + (isParallel ? 1 : 2)]};
-}
-
 bool EdgeDepths::hasChildren(const TileId& tile) {
     if (tile.level >= _layout.deepestLevel() || !_layout.isInRegion(tile)) return false;
     if (tile.level < _layout.startLevel()) return true;

@@ -18,12 +18,6 @@
 
 namespace osgbindem {
 
-/// The edge across from an edge of the same tile.
-[[nodiscard]] Edge oppositeOf(Edge edge);
-
-/// The children of a tile that stand along one of its edges.
-[[nodiscard]] std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge);
-
 /// Knows which tiles have children, and so how deep the tree is on either side of an edge.
 /// A tile has children when a raster finer than its posts has data in it, and the tile is part of the region.
 class EdgeDepths final {

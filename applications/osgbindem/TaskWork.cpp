@@ -61,6 +61,26 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     site.progress.add(left);
 }
 
+void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
+    TileBuilder builder(site.settings, site.layout, site.files);
+    const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
+    builder.setFinishedTasks(standing);
+    while (const auto task = tasks.next()) {
+        doTask(*task, site, builder);
+        tasks.finish();
+    }
+    if (!starts || tasks.hasFailed()) return;
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
+        if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
+        auto record = site.state.find(tile, site.layout);
+        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
+        return std::move(record->tile);
+    });
+    starts->build(builder);
+}
+
 }  // namespace
 
 TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
@@ -147,43 +167,18 @@ void TaskBoard::rethrow() const {
     if (_error) std::rethrow_exception(_error);
 }
 
-void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
-    TileBuilder builder(site.settings, site.layout, site.files);
-    const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
-    builder.setFinishedTasks(standing);
-    while (const auto task = tasks.next()) {
-        doTask(*task, site, builder);
-        tasks.finish();
-    }
-    if (!starts || tasks.hasFailed()) return;
-    std::set<TileId> done;
-    for (const Task& task : plan) done.insert(task.tile);
-    builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
-        if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
-        auto record = site.state.find(tile, site.layout);
-        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
-        return std::move(record->tile);
-    });
-    starts->build(builder);
-}
-
-Threads::Threads(int count, TaskBoard& tasks, const std::function<void()>& body) : _running(count) {
-    for (int i = 0; i < count; ++i) {
-        _threads.emplace_back([this, &tasks, body] {
+Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
+    Threads threads;
+    for (int i = 0; i < site.settings.threads; ++i) {
+        threads.push_back(std::async(std::launch::async, [&, starts] {
             try {
-                body();
+                work(site, plan, tasks, starts);
             } catch (...) {
                 tasks.fail(std::current_exception());
             }
-            --_running;
-        });
+        }));
     }
-}
-
-void Threads::join() {
-    for (std::thread& thread : _threads) {
-        if (thread.joinable()) thread.join();
-    }
+    return threads;
 }
 
 }  // namespace osgbindem

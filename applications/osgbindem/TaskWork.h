@@ -14,14 +14,13 @@
 #include <cpl_progress.h>
 
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 namespace osgbindem {
@@ -151,24 +150,11 @@ struct Site {
     std::function<FinishedTasks(TileBuilder& builder)> standing = nullptr;
 };
 
-/// What one thread does: tasks as long as there are some, those left out that an earlier run has done and whose files
-/// are whole, then its part of the start tiles, from what all tasks of the plan have left.
-void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts);
-
-/// Threads with one body, whose errors go to the board of their tasks.
-class Threads final {
-public:
-    Threads(int count, TaskBoard& tasks, const std::function<void()>& body);
-    Threads(const Threads&) = delete;
-    Threads& operator=(const Threads&) = delete;
-    ~Threads() { join(); }
-
-    [[nodiscard]] bool areRunning() const { return _running > 0; }
-    void join();
-
-private:
-    std::atomic<int> _running;
-    std::vector<std::thread> _threads;
-};
+/// Threads, which are waited for when they are cleared. Each does tasks as long as there are some, those left out that
+/// an earlier run has done and whose files are whole, then its part of the start tiles, from what all tasks of the plan
+/// have left. What one throws goes to the board.
+using Threads = std::vector<std::future<void>>;
+[[nodiscard]] Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks,
+                                   StartTiles* starts);
 
 }  // namespace osgbindem

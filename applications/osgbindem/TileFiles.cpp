@@ -7,18 +7,9 @@
 #include "Failure.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
-#include "PackedTerrain.h"
 #include "TextFile.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include <osg/CoordinateSystemNode>
-#include <osg/Geometry>
-#include <osg/Material>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osg/Texture2D>
+#include <osg/Group>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
 
@@ -134,35 +125,13 @@ osgDB::ReaderWriter& writer() {
 
 void prepareNodeFiles() {
     osgAnalyticBin::addModuleFolder();
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    root->setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
-    const char* className = "osgAnalyticBin::InstallBinsCallback";
-    if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(className) == nullptr) {
-        throw Failure(std::string("OpenSceneGraph finds no serializer for ") + className +
-                      "; install this library's modules or set OSG_LIBRARY_PATH");
+    for (const char* name : {"osg::Group", "osgAnalyticBin::InstallBinsCallback", "osgAnalyticBin::PackedTerrain"}) {
+        if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name) == nullptr) {
+            throw Failure(std::string("OpenSceneGraph finds no serializer for ") + name +
+                          "; install this library's modules or set OSG_LIBRARY_PATH");
+        }
     }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(new osg::Vec3Array(3));
-    geometry->setNormalArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, 3));
-    geometry->setColorArray(new osg::Vec4ubArray(osg::Array::BIND_OVERALL, 1));
-    geometry->setTexCoordArray(0, new osg::Vec2Array(osg::Array::BIND_PER_VERTEX, 3));
-    geometry->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES, 3));
-    const osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
-    geometry->getOrCreateStateSet()->setAttributeAndModes(new osg::Material);
-    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
-    transform->addChild(geometry);
-    const osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
-    lod->addChild(transform, 0.0F, 1.0F);
-    osgAnalyticBin::setStoredBin(*lod, osgAnalyticBin::AnalyticBin());
-    root->addChild(lod);
-    const osg::ref_ptr<osg::Geometry> packed = new osgAnalyticBin::PackedTerrain;
-    packed->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES));
-    packed->setTexCoordArray(0, new osg::Vec2Array(osg::Array::BIND_PER_VERTEX));
-    transform->addChild(packed);
-    (void)nodeFileBytes(*root, true);
+    (void)nodeFileBytes(*osg::ref_ptr<osg::Node>(new osg::Group), true);
 }
 
 std::string nodeFileBytes(const osg::Node& node, bool compress) {
