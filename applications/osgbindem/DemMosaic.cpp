@@ -145,7 +145,7 @@ std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const 
     for (std::size_t i = source; i < _sources.size(); ++i) {
         const auto height = _sources[i]->height(position);
         if (!height) continue;
-        Found found{height->metres, height->isFilled, i};
+        Found found{*height, i};
         if (!_shifts[i].isNone()) found.metres += _shifts[i].at(position);
         const double own = _sources[i]->layer().share(position);
         if (own == 1.0) return found;

@@ -57,11 +57,8 @@ public:
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
-    struct Found {
-        /// Above the ellipsoid.
-        double metres = 0.0;
-        /// No data, but what stands in a void.
-        bool isFilled = false;
+    /// Above the ellipsoid.
+    struct Found : SourceHeight {
         std::size_t source = 0;
     };
 

@@ -104,16 +104,8 @@ std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const no
 std::vector<RasterGrid::Span> RasterGrid::spans(int first, int last) const {
     std::vector<Span> found;
     if (last < first) return found;
-    if (_isGlobal) {
-        const int count = last - first + 1;
-        if (count >= _width) return {{0, _width}};
-        const int start = ((first % _width) + _width) % _width;
-        const int direct = std::min(count, _width - start);
-        found.push_back({start, direct});
-        if (count > direct) found.push_back({0, count - direct});
-        return found;
-    }
-    const double turn = 360.0 / _dx;
+    if (_isGlobal && last - first >= _width) return {{0, _width}};
+    const double turn = _isGlobal ? _width : 360.0 / _dx;
     for (int k = -2; k <= 2; ++k) {
         const int a = std::max(0, floorOf(first + k * turn));
         const int b = std::min(_width - 1, ceilOf(last + k * turn));

@@ -98,18 +98,13 @@ void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) cons
     osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
-FileSum TileFiles::sumBelow(const TileId& tile) const {
-    FileSum sum;
-    addBelow(tile, sum);
-    return sum;
-}
-
-void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
+FileSum TileFiles::sumBelow(const TileId& tile, FileSum sum) const {
     throwIfStopRequested();
-    if (!hasChildren(tile)) return;
+    if (!hasChildren(tile)) return sum;
     sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
-    if (tile.level + 1 >= TileLayout::kDeepest) return;
-    for (const TileId& child : tile.children()) addBelow(child, sum);
+    if (tile.level + 1 >= TileLayout::kDeepest) return sum;
+    for (const TileId& child : tile.children()) sum = sumBelow(child, sum);
+    return sum;
 }
 
 namespace {

@@ -51,12 +51,10 @@ public:
     [[nodiscard]] std::string pathOfChildren(const TileId& tile) const;
     [[nodiscard]] bool hasChildren(const TileId& tile) const;
 
-    /// Reads back all files below a tile.
-    [[nodiscard]] FileSum sumBelow(const TileId& tile) const;
+    /// Reads back all files below a tile. Returns: `sum` with them.
+    [[nodiscard]] FileSum sumBelow(const TileId& tile, FileSum sum = {}) const;
 
 private:
-    void addBelow(const TileId& tile, FileSum& sum) const;
-
     std::string _folder;
     std::string _finalName;
     int _startLevel;
