@@ -3,9 +3,7 @@
 
 #include "BuildSources.h"
 
-#include "BlendBand.h"
-#include "DemMosaic.h"
-#include "ImageMosaic.h"
+#include "RasterLayer.h"
 #include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -69,54 +67,23 @@ double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayou
     return VoidFill::kMostReach * spacing;
 }
 
-void describeMember(const RasterLayer::Member& member, const std::vector<RasterGrid>& all, const Settings& settings,
-                    std::ostream& out) {
-    // Where heights or colours may depend on the raster.
-    const RectDeg area = member.grid.extent().grownBy(member.grid.resolutionDeg());
-    out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
-    out << "  blended over ";
-    BlendBand(member.grid, all, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
-    out << '\n';
-}
-
-/// The rasters of all layers, in the order of the command line.
-std::vector<const RasterLayer::Member*> membersOf(const std::vector<std::unique_ptr<RasterLayer>>& layers) {
+/// Rasters of all layers in the order of the command line. `describe`: says what is special, under a raster's name.
+template <typename Describe>
+void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out, const Describe& describe) {
     std::vector<const RasterLayer::Member*> members;
     for (const auto& layer : layers) {
         for (const RasterLayer::Member& member : layer->members()) members.push_back(&member);
     }
     std::sort(members.begin(), members.end(), [](const auto* a, const auto* b) { return a->number < b->number; });
-    return members;
-}
-
-std::vector<RasterGrid> gridsOf(const std::vector<const RasterLayer::Member*>& members) {
-    std::vector<RasterGrid> grids;
-    for (const RasterLayer::Member* member : members) grids.push_back(member->grid);
-    return grids;
-}
-
-void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
-    const auto layers = elevationLayers(settings, &layout);
-    const auto members = membersOf(layers);
-    const std::vector<RasterGrid> grids = gridsOf(members);
     for (const RasterLayer::Member* member : members) {
-        const DemInput& dem = settings.dems[member->number];
-        out << kElevation << wholePath(dem.path);
-        if (dem.metresPerUnit) out << ", scale " << *dem.metresPerUnit;
+        out << kind << wholePath(member->file->path()) << '\n';
+        // Where heights or colours may depend on the raster.
+        const RectDeg area = member->grid.extent().grownBy(member->grid.resolutionDeg());
+        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+        out << "  blended over ";
+        member->band.describe(out);
         out << '\n';
-        describeMember(*member, grids, settings, out);
-        out << kReach << member->grid.resolutionDeg() << ' ' << reachOf(member->grid, settings, layout) << '\n';
-        describeFiles(member->file->file(), out);
-    }
-}
-
-void describeImages(const Settings& settings, std::ostream& out) {
-    const auto layers = RasterLayer::layersOf(imageOptions(settings));
-    const auto members = membersOf(layers);
-    const std::vector<RasterGrid> grids = gridsOf(members);
-    for (const RasterLayer::Member* member : members) {
-        out << kImage << wholePath(settings.images[member->number]) << '\n';
-        describeMember(*member, grids, settings, out);
+        describe(*member);
         describeFiles(member->file->file(), out);
     }
 }
@@ -145,8 +112,12 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     if (settings.band) out << "band " << *settings.band << '\n';
     for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    describeElevations(settings, layout, out);
-    describeImages(settings, out);
+    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out, [&](const auto& member) {
+        const auto scale = settings.dems[member.number].metresPerUnit;
+        if (scale) out << "  scale " << *scale << '\n';
+        out << kReach << member.grid.resolutionDeg() << ' ' << reachOf(member.grid, settings, layout) << '\n';
+    });
+    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const auto&) {});
     return out.str();
 }
 

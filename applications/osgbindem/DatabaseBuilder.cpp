@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: MIT
 
 #include "BuildSources.h"
-#include "BuildState.h"
-#include "Database.h"
 #include "DatabaseFolder.h"
 #include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
-#include "NodeFile.h"
 #include "TaskWork.h"
-#include "TileBuilder.h"
+#include "TileFiles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -128,19 +126,16 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
                 Meetings& meetings, StartTiles* starts) {
     TaskBoard board(partsOf(ranks, plan));
     if (ranks.count() > 1 && starts) board.hold();
-    const FinishedTasks finished = finishedTasks(site, plan);
-    Threads threads(site.settings.threads, board, [&] {
-        TileBuilder builder(site.settings, site.layout, site.files);
-        doTasks(site, board, builder);
-        if (!starts || board.hasFailed()) return;
-        builder.setFinishedTasks(finished);
-        starts->build(builder);
-    });
+    Threads threads = startThreads(site, plan, board, starts);
     if (ranks.count() > 1) {
-        meetings.watch(board, [&] { return threads.areRunning() && !board.isFinished(); });
+        const auto isRunning = [](const std::future<void>& thread) {
+            return thread.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+        };
+        meetings.watch(board,
+                       [&] { return std::any_of(threads.begin(), threads.end(), isRunning) && !board.isFinished(); });
         try {
             if (!starts) {
-                threads.join();
+                threads.clear();
                 board.rethrow();
                 osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back of it
             }
@@ -150,7 +145,7 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseF
             board.fail(std::current_exception());
         }
     }
-    threads.join();
+    threads.clear();
     if (starts && board.hasFailed()) {
         ranks.sendFailure({});
         meetings.giveUp();
@@ -168,14 +163,14 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     folder.lock();
     if (!settings.overwrite) folder.requireNone();
     const BuildState state(folder.stateFolder());
-    const std::vector<Task> plan = planTasks(settings, layout);
+    const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
     meetings.hold();
     // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
     meetings.setInterrupted([&] {
         std::cerr << "osgbindem: " + interruption(folder, state, plan.size()) + "\n" << std::flush;
-        Ranks::leaveAfterSignal();
+        leaveAfterSignal();
     });
     try {
         const TileFiles files = folder.files(layout);
@@ -202,12 +197,12 @@ void buildWith(const Settings& given, const Ranks& ranks) {
 
 /// Every rank but the first.
 void helpFirstRank(const Settings& given, const Ranks& ranks) {
-    Meetings meetings(ranks, Ranks::leaveAfterSignal);
+    Meetings meetings(ranks, leaveAfterSignal);
     try {
         prepareNodeFiles();
         const Settings settings = withDeclaredRadii(given);
         const TileLayout layout = layoutFor(settings, DemMosaic(settings));
-        const std::vector<Task> plan = planTasks(settings, layout);
+        const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
         meetings.hold();
         const DatabaseFolder folder(settings.output);
         const TileFiles files = folder.files(layout);

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "BuildSources.h"
-#include "Database.h"
 #include "DatabaseFolder.h"
-#include "EdgeDepths.h"
 #include "Failure.h"
-#include "NodeFile.h"
+#include "SkirtMeasure.h"
 #include "TaskWork.h"
 #include "TileBuilder.h"
 #include "TileFiles.h"
@@ -21,7 +19,8 @@
 #include <functional>
 #include <future>
 #include <iostream>
-#include <map>
+#include <iterator>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -110,7 +109,7 @@ public:
         return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
             const auto neighbour = tile.neighbour(edge);
             if (!neighbour) return false;
-            return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
+            return _area.touches(neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour);
         });
     }
 
@@ -121,23 +120,14 @@ private:
         for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
         return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
     }
-    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const {
-        return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
-    }
     [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const {
-        for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
+        for (int level = _layout.startLevel(); level < neighbour.level; ++level) {
             const TileId above = neighbour.ancestor(level);
-            if (isRefinedOtherwise(above)) return true;
-            if (!_depths.hasChildren(above)) return false;
+            const bool hasChildren = _depths.hasChildren(above);
+            if (_area.touches(above.rect()) && hasChildren != _hadChildren(above)) return true;
+            if (!hasChildren) return false;
         }
         return false;
-    }
-    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
-        if (!_area.touches(neighbour.rect())) return false;
-        if (isRefinedOtherwise(neighbour)) return true;
-        if (!_depths.hasChildren(neighbour)) return false;
-        const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
-        return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
     }
 
     const ChangedArea& _area;
@@ -146,90 +136,53 @@ private:
     HadChildren _hadChildren;
 };
 
-/// What the threads have found out.
-class Findings {
-public:
-    void keep(SurveyedTile tile) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        const TileId id = tile.heights.tile();
-        _surveyed.emplace(id, std::move(tile));
-    }
-    [[nodiscard]] std::optional<SurveyedTile> find(const TileId& tile) const {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        const auto found = _surveyed.find(tile);
-        return found == _surveyed.end() ? std::nullopt : std::optional(found->second);
-    }
-    void removeChildren(const TileId& tile) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        _removed.insert(tile);
-    }
-    /// Requires: the threads have ended.
-    [[nodiscard]] std::vector<TileId> removed() const { return {_removed.begin(), _removed.end()}; }
-
-private:
-    mutable std::mutex _mutex;
-    std::map<TileId, SurveyedTile> _surveyed;
-    std::set<TileId> _removed;
-};
-
-/// One thread's way through the tiles: builds those that change, takes the others from the database.
+/// A builder's way through the tiles of a database: what does not change is taken from there.
 class Updater {
 public:
-    Updater(const Settings& settings, const TileLayout& layout, const StandingDatabase& standing,
-            const TileFiles& files, const ChangedArea& area, Findings& findings)
-        : _builder(settings, layout, files),
+    /// Tiles whose children are no longer there.
+    struct Removed {
+        std::mutex mutex;
+        std::set<TileId> tiles;
+    };
+
+    Updater(TileBuilder& builder, const TileLayout& layout, const StandingDatabase& standing, const ChangedArea& area,
+            Removed& removed)
+        : _builder(builder),
           _standing(standing),
-          _changed(area, _builder.depths(), layout, [this](const TileId& tile) { return _standing.hasChildren(tile); }),
-          _findings(findings) {
-        _builder.setFinishedTasks([this](const TileId& tile) { return known(tile); });
-    }
+          _changed(area, builder.depths(), layout, [this](const TileId& tile) { return _standing.hasChildren(tile); }),
+          _removed(removed) {}
     Updater(const Updater&) = delete;
     Updater& operator=(const Updater&) = delete;
 
-    [[nodiscard]] TileBuilder& builder() noexcept { return _builder; }
     [[nodiscard]] bool hasChanged(const TileId& tile) const { return _changed.has(tile); }
 
-    void update(const Task& task, Progress& progress) {
-        _findings.keep(_builder.survey(task.tile));
-        progress.add(task.weight);
-    }
-
-private:
-    std::optional<SurveyedTile> known(const TileId& tile) {
-        if (auto found = _findings.find(tile)) return found;
+    /// A tile with everything below it as it is; the bin of a tile holds whatever is below. Returns: nullopt where
+    /// something changes.
+    [[nodiscard]] std::optional<SurveyedTile> find(const TileId& tile) {
         const bool hasChildren = _builder.depths().hasChildren(tile);
         if (!hasChildren) removeBelow(tile);
         if (!hasChildren || _changed.has(tile)) return std::nullopt;
-        return standing(tile);
-    }
-
-    void removeBelow(const TileId& tile) {
-        if (!_standing.hasChildren(tile)) return;
-        _findings.removeChildren(tile);
-        for (const TileId& child : tile.children()) removeBelow(child);
-    }
-
-    /// A tile with everything below it as it is; the bin of a tile holds whatever is below.
-    SurveyedTile standing(const TileId& tile) {
         SurveyedTile surveyed = _builder.surveyAlone(tile);
         surveyed.below = _standing.bin(tile);
         surveyed.range = {surveyed.below.bin().altitude().lower, surveyed.below.bin().altitude().upper};
         return surveyed;
     }
 
-    TileBuilder _builder;
+private:
+    void removeBelow(const TileId& tile) {
+        if (!_standing.hasChildren(tile)) return;
+        {
+            const std::lock_guard<std::mutex> guard(_removed.mutex);
+            _removed.tiles.insert(tile);
+        }
+        for (const TileId& child : tile.children()) removeBelow(child);
+    }
+
+    TileBuilder& _builder;
     StandingDatabase _standing;
     ChangedTiles _changed;
-    Findings& _findings;
+    Removed& _removed;
 };
-
-std::vector<Task> changedTasks(Updater updater, const TileLayout& layout) {
-    std::vector<Task> tasks = planTasks(updater.builder().mosaic(), updater.builder().depths(), layout);
-    tasks.erase(
-        std::remove_if(tasks.begin(), tasks.end(), [&](const Task& task) { return !updater.hasChanged(task.tile); }),
-        tasks.end());
-    return tasks;
-}
 
 ChangedArea requireUpdatable(const DatabaseFolder& folder, const std::string& sources) {
     const std::string before = folder.standingSources();
@@ -262,23 +215,28 @@ void updateDatabase(const Settings& given) {
     }
     folder.clear();
     const TileFiles files = folder.files(layout);
-    Findings findings;
     const StandingDatabase standing(folder.rootFile(), folder.standingFiles(layout), layout);
-    const std::vector<Task> tasks = changedTasks(Updater(settings, layout, standing, files, area, findings), layout);
+    Updater::Removed removed;
+    std::vector<Task> tasks;
+    {
+        TileBuilder builder(settings, layout, files);
+        const Updater updater(builder, layout, standing, area, removed);
+        const std::vector<Task> plan = planTasks(builder.mosaic(), layout);
+        std::copy_if(plan.begin(), plan.end(), std::back_inserter(tasks),
+                     [&](const Task& task) { return updater.hasChanged(task.tile); });
+    }
+    const BuildState state(folder.stateFolder());
     Progress progress(!settings.quiet, weightOf(tasks));
+    const Site site{settings, layout, files, state, progress, [&](TileBuilder& builder) {
+                        const auto updater = std::make_shared<Updater>(builder, layout, standing, area, removed);
+                        return [updater](const TileId& tile) { return updater->find(tile); };
+                    }};
     TaskBoard board(tasks);
     StartTiles starts(settings, layout);
-    Threads threads(settings.threads, board, [&] {
-        Updater updater(settings, layout, standing, files, area, findings);
-        while (const auto task = board.next()) {
-            updater.update(*task, progress);
-            board.finish();
-        }
-        if (board.isFinished()) starts.build(updater.builder());
-    });
-    threads.join();
+    startThreads(site, tasks, board, &starts).clear();
+    if (board.hasFailed()) folder.clear();
     board.rethrow();
-    folder.merge(starts.rootBytes(), sources, findings.removed());
+    folder.merge(starts.rootBytes(), sources, {removed.tiles.begin(), removed.tiles.end()});
     progress.finish();
 }
 

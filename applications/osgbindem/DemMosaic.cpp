@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -14,6 +15,72 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+
+namespace {
+
+/// Heights above the geoid of a grid, at longitudes and latitudes of WGS 84.
+OGRSpatialReference referenceOf(const std::string& grid) {
+    OGRSpatialReference reference;
+    const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
+    if (reference.importFromProj4(text.c_str()) != OGRERR_NONE) {
+        throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
+    }
+    return reference;
+}
+
+/// A vertical reference system with longitudes and latitudes of WGS 84.
+OGRSpatialReference withPositions(const OGRSpatialReference& heights) {
+    OGRSpatialReference positions;
+    positions.importFromEPSG(4326);
+    OGRSpatialReference reference;
+    reference.SetCompoundCS("positions and heights", &positions, &heights);
+    return reference;
+}
+
+}  // namespace
+
+VerticalShift::VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path) {
+    if (geoid == "none") return;
+    if (geoid == "egm96") {
+        open(referenceOf("egm96_15.gtx"), "the geoid EGM96");
+    } else if (!geoid.empty()) {
+        open(referenceOf(std::filesystem::absolute(geoid).string()), "the geoid \"" + geoid + "\"");
+    } else if (!vertical.empty()) {
+        OGRSpatialReference heights;
+        heights.importFromWkt(vertical.c_str());
+        open(withPositions(heights),
+             std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"");
+    }
+}
+
+void VerticalShift::open(const OGRSpatialReference& reference, const std::string& what) {
+    _what = what;
+    OGRSpatialReference source(reference);
+    OGRSpatialReference target;
+    target.importFromEPSG(4979);
+    source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    OGRCoordinateTransformationOptions options;
+    options.SetBallparkAllowed(false);
+    _transformation.reset(OGRCreateCoordinateTransformation(&source, &target, options));
+    if (!_transformation) {
+        throw Failure("PROJ has no grid for " + what +
+                      "; install the package proj-data, or see --geoid (none takes heights as they are)");
+    }
+}
+
+double VerticalShift::at(const PositionDeg& position) const {
+    if (!_transformation) return 0.0;
+    double x = std::remainder(position.longitudeDeg, 360.0);
+    double y = position.latitudeDeg;
+    double z = 0.0;
+    if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
+        throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
+                      ", longitude " + std::to_string(position.longitudeDeg) +
+                      "; install the package proj-data, or see --geoid (none takes heights as they are)");
+    }
+    return z;
+}
 
 namespace {
 
@@ -54,38 +121,15 @@ std::string markText(const RasterLook& look) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings, const TileLayout* layout) {
-    std::vector<RasterOptions> rasters;
-    for (const DemInput& dem : settings.dems) {
-        RasterOptions options;
-        options.path = dem.path;
-        options.nodata = settings.nodata;
-        options.isWgs84 = settings.isWgs84;
-        if (settings.useOverviews && layout) options.spacingDeg = layout->spacingDeg(layout->deepestLevel());
-        options.metresPerUnit = dem.metresPerUnit;
-        options.band = settings.band;
-        rasters.push_back(std::move(options));
-    }
-    return RasterLayer::layersOf(rasters, layout ? std::optional(layout->cells()) : std::nullopt);
-}
-
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _mostPosts(postsPerThread(settings)) {
-    std::vector<RasterGrid> grids;
-    for (auto& layer : elevationLayers(settings, layout)) {
-        for (const RasterLayer::Member& member : layer->members()) grids.push_back(member.grid);
+    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
         _shifts.emplace_back(layer->vertical(), settings.geoid, layer->path());
         _sources.push_back(std::make_unique<DemSource>(std::move(layer)));
     }
-    for (std::size_t i = 0; i < _sources.size(); ++i) {
-        if (i + 1 < _sources.size()) {
-            const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
-            _sources[i]->setCoarser([this, i](const PositionDeg& position) { return below(i, position); }, hasRivals);
-        }
-        _bands.emplace_back();
-        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
-            BlendBand band(member.grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
-            if (!band.isEmpty()) _bands.back().push_back(std::move(band));
-        }
+    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
+        const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
+        _sources[i]->voids().setCoarser(
+            [this, i](int column, int row) { return below(i, _sources[i]->grid().position(column, row)); }, hasRivals);
     }
 }
 
@@ -97,21 +141,13 @@ VoidFill::Below DemMosaic::below(std::size_t source, const PositionDeg& position
             !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg};
 }
 
-double DemMosaic::share(std::size_t source, const PositionDeg& position) const noexcept {
-    double share = 1.0;
-    for (const BlendBand& band : _bands[source]) {
-        if (share > 0.0) share = std::min(share, band.share(position));
-    }
-    return share;
-}
-
 std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
         const auto height = _sources[i]->height(position);
         if (!height) continue;
-        Found found{height->metres, height->isFilled, i};
+        Found found{*height, i};
         if (!_shifts[i].isNone()) found.metres += _shifts[i].at(position);
-        const double own = share(i, position);
+        const double own = _sources[i]->layer().share(position);
         if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);
         if (coarser) found.metres = coarser->metres + own * (found.metres - coarser->metres);
@@ -148,13 +184,17 @@ HeightRange DemMosaic::range(const RectDeg& rect) {
     bool isCovered = false;
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         const bool isComplete = addRange(i, rect, range);
-        const bool isBlended =
-            std::any_of(_bands[i].begin(), _bands[i].end(), [&](const BlendBand& band) { return band.touches(rect); });
-        if (isComplete && !isBlended) return range;
+        if (isComplete && !_sources[i]->layer().isBlendedIn(rect)) return range;
         isCovered = isCovered || isComplete;
     }
     if (!isCovered) range.include(0.0);
     return range;
+}
+
+bool DemMosaic::hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept {
+    return std::any_of(_sources.begin(), _sources.end(), [&](const auto& source) {
+        return TileLayout::isFiner(source->grid().resolutionDeg(), spacingDeg) && source->grid().overlap(rect) > 0.0;
+    });
 }
 
 bool DemMosaic::hasFinerData(const RectDeg& rect, double spacingDeg) {

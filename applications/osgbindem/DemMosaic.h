@@ -3,11 +3,12 @@
 
 #pragma once
 
-#include "BlendBand.h"
 #include "DemSource.h"
+#include "RasterGrid.h"
 #include "Settings.h"
 #include "TileLayout.h"
-#include "VerticalShift.h"
+
+#include <ogr_spatialref.h>
 
 #include <cstddef>
 #include <memory>
@@ -17,10 +18,34 @@
 
 namespace osgbindem {
 
-/// The elevation rasters of the command line, for tiles of the layout where there is one: then of the overviews that
-/// are as fine, where settings allow them, and warped to posts of tiles. Throws Failure.
-[[nodiscard]] std::vector<std::unique_ptr<RasterLayer>> elevationLayers(const Settings& settings,
-                                                                        const TileLayout* layout);
+/// What is added to heights of a raster so that they are above the ellipsoid: the height of the geoid, found by PROJ.
+/// Not for use by several threads: each has its own.
+class VerticalShift final {
+public:
+    /// `vertical`: the vertical part of the reference system of the raster at `path`, empty when it has none.
+    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what `vertical` says.
+    /// Throws Failure when PROJ has no grid for it.
+    VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path);
+
+    [[nodiscard]] bool isNone() const noexcept { return !_transformation; }
+
+    /// For the user: what heights are above.
+    [[nodiscard]] const std::string& what() const noexcept { return _what; }
+
+    /// Metres. Throws Failure where the grid has none.
+    [[nodiscard]] double at(const PositionDeg& position) const;
+
+private:
+    struct Destroy {
+        void operator()(OGRCoordinateTransformation* transformation) const {
+            OGRCoordinateTransformation::DestroyCT(transformation);
+        }
+    };
+    void open(const OGRSpatialReference& reference, const std::string& what);
+
+    std::string _what;
+    std::unique_ptr<OGRCoordinateTransformation, Destroy> _transformation;
+};
 
 /// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
 /// it, its border blended with them, and 0 m where none has.
@@ -32,11 +57,8 @@ public:
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
-    struct Found {
-        /// Above the ellipsoid.
-        double metres = 0.0;
-        /// No data, but what stands in a void.
-        bool isFilled = false;
+    /// Above the ellipsoid.
+    struct Found : SourceHeight {
         std::size_t source = 0;
     };
 
@@ -52,7 +74,8 @@ public:
     /// Heights of every post, of every raster used in the rectangle, that has part in it.
     [[nodiscard]] HeightRange range(const RectDeg& rect);
 
-    /// Whether a raster finer than the spacing has data in the rectangle.
+    /// Whether a raster finer than the spacing has a part in the rectangle, and whether it has data there.
+    [[nodiscard]] bool hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept;
     [[nodiscard]] bool hasFinerData(const RectDeg& rect, double spacingDeg);
 
     void prefetch(const RectDeg& rect);
@@ -77,9 +100,6 @@ private:
     /// What the coarser layers have, as heights of this one.
     [[nodiscard]] VoidFill::Below below(std::size_t source, const PositionDeg& position);
 
-    /// A layer's share of the height, less than 1 in the bands at its rasters' borders.
-    [[nodiscard]] double share(std::size_t source, const PositionDeg& position) const noexcept;
-
     /// As DemSource::addRange(), above the ellipsoid.
     [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
 
@@ -87,8 +107,6 @@ private:
     std::vector<std::unique_ptr<DemSource>> _sources;
     /// One for each source.
     std::vector<VerticalShift> _shifts;
-    /// Of each source, those of its rasters that have one.
-    std::vector<std::vector<BlendBand>> _bands;
 };
 
 }  // namespace osgbindem

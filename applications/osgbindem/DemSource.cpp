@@ -21,30 +21,12 @@ namespace {
 constexpr int kBlock = 256;
 constexpr double kMostAtOnce = 1e6;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
-DemSource::DemSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)), _voids(voidFill({}, false)) {}
-
-VoidFill DemSource::voidFill(VoidFill::Coarser coarser, bool hasRivals) {
-    const auto readPosts = [this](const PixelWindow& window, std::vector<double>& heights) {
-        read(_layer->dataset(), window, heights);
-    };
-    std::vector<PixelWindow> parts;
-    for (const RasterLayer::Member& member : _layer->members()) parts.push_back(member.window);
-    return {{grid().columns(), grid().rows(), grid().isGlobal(), std::move(parts)},
-            readPosts,
-            std::move(coarser),
-            hasRivals};
-}
-
-void DemSource::setCoarser(Coarser coarser, bool hasRivals) {
-    const auto at = [this, coarser = std::move(coarser)](int column, int row) {
-        return coarser(grid().position(column, row));
-    };
-    _voids = voidFill(at, hasRivals);
-}
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer)
+    : _layer(std::move(layer)), _voids(*_layer, [this](const PixelWindow& window, std::vector<double>& heights) {
+          read(_layer->dataset(), window, heights);
+      }) {}
 
 void DemSource::read(GDALDataset& dataset, const PixelWindow& window, std::vector<double>& heights) {
     heights.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
@@ -188,34 +170,16 @@ bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
     return isComplete;
 }
 
-bool DemSource::windowHasData(const PixelWindow& window) {
-    read(_layer->dataset(), window, _scratch);
-    return std::any_of(_scratch.begin(), _scratch.end(), [](double height) { return !std::isnan(height); });
-}
-
-bool DemSource::blockHasData(int blockColumn, int blockRow) {
-    const auto known = _blocks.find({blockColumn, blockRow});
-    if (known != _blocks.end()) return known->second;
-    throwIfStopRequested();
-    const int column = blockColumn * kBlock;
-    const int row = blockRow * kBlock;
-    const bool result = windowHasData(
-        {column, row, std::min(kBlock, _layer->width() - column), std::min(kBlock, _layer->height() - row)});
-    _blocks.emplace(std::pair(blockColumn, blockRow), result);
-    return result;
-}
-
 bool DemSource::hasData(const PixelWindow& window) {
     const int endColumn = window.column + window.width;
     const int endRow = window.row + window.height;
-    for (int blockRow = window.row / kBlock; blockRow * kBlock < endRow; ++blockRow) {
-        for (int blockColumn = window.column / kBlock; blockColumn * kBlock < endColumn; ++blockColumn) {
-            if (!blockHasData(blockColumn, blockRow)) continue;
-            const int column = std::max(window.column, blockColumn * kBlock);
-            const int row = std::max(window.row, blockRow * kBlock);
-            const PixelWindow part{column, row, std::min(endColumn, (blockColumn + 1) * kBlock) - column,
-                                   std::min(endRow, (blockRow + 1) * kBlock) - row};
-            if (windowHasData(part)) return true;
+    for (int row = window.row; row < endRow; row += kBlock) {
+        for (int column = window.column; column < endColumn; column += kBlock) {
+            throwIfStopRequested();
+            read(_layer->dataset(), {column, row, std::min(kBlock, endColumn - column), std::min(kBlock, endRow - row)},
+                 _scratch);
+            if (std::any_of(_scratch.begin(), _scratch.end(), [](double height) { return !std::isnan(height); }))
+                return true;
         }
     }
     return false;

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -53,12 +52,8 @@ public:
     [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
 
-    /// What coarser rasters have.
-    using Coarser = std::function<VoidFill::Below(const PositionDeg&)>;
-
-    /// Fills wide voids too, from what coarser rasters have there; before the first height is asked for.
-    /// `hasRivals`: whether some of them are nearly as fine.
-    void setCoarser(Coarser coarser, bool hasRivals);
+    /// To be told of coarser rasters before the first height is asked for.
+    [[nodiscard]] VoidFill& voids() noexcept { return _voids; }
 
     /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
     [[nodiscard]] std::optional<SourceHeight> height(const PositionDeg& position);
@@ -89,17 +84,12 @@ private:
     template <typename Rows>
     void readInParts(GDALDataset& dataset, const PixelWindow& window, const Rows& rows);
     [[nodiscard]] bool hasData(const PixelWindow& window);
-    [[nodiscard]] bool windowHasData(const PixelWindow& window);
-    [[nodiscard]] bool blockHasData(int blockColumn, int blockRow);
     [[nodiscard]] double ownPost(int column, int row);
-    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser, bool hasRivals);
     [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
 
     std::unique_ptr<RasterLayer> _layer;
     std::vector<Page> _pages;
     std::vector<double> _scratch;
-    /// By column and row of a block, whether it has data.
-    std::map<std::pair<int, int>, bool> _blocks;
     VoidFill _voids;
 };
 

@@ -3,8 +3,6 @@
 
 #include "Gdal.h"
 
-#include <ogr_spatialref.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
@@ -24,6 +22,11 @@ std::string wktOf(const OGRSpatialReference& reference) {
     std::string result(text);
     CPLFree(text);
     return result;
+}
+
+const OGRSpatialReference* referenceOf(GDALDataset& dataset) {
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    return reference != nullptr ? reference : dataset.GetGCPSpatialRef();
 }
 
 bool mayExist(const std::string& path) {

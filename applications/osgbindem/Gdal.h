@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gdal_priv.h>
+#include <ogr_spatialref.h>
 
 #include <memory>
 #include <string>
@@ -15,6 +16,9 @@ namespace osgbindem {
 
 /// A reference system as text.
 [[nodiscard]] std::string wktOf(const OGRSpatialReference& reference);
+
+/// The reference system of a raster's transform or else of its control points; null without one.
+[[nodiscard]] const OGRSpatialReference* referenceOf(GDALDataset& dataset);
 
 /// Whether there is a file of this name; of names that begin with /vsi only GDAL knows, so there may be one.
 /// No name that the file system refuses is a file's.

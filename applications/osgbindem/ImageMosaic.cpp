@@ -69,18 +69,6 @@ private:
 
 }  // namespace
 
-std::vector<RasterOptions> imageOptions(const Settings& settings) {
-    std::vector<RasterOptions> images;
-    for (const std::string& path : settings.images) {
-        RasterOptions options;
-        options.path = path;
-        options.isWgs84 = settings.isWgs84;
-        options.isElevation = false;
-        images.push_back(std::move(options));
-    }
-    return images;
-}
-
 bool ImageSource::overlaps(const RectDeg& rect) const noexcept {
     const auto& members = _layer->members();
     return std::any_of(members.begin(), members.end(),
@@ -185,35 +173,21 @@ Cover ImageSource::sample(const PositionDeg& position) const noexcept {
 }
 
 ImageMosaic::ImageMosaic(const Settings& settings) {
-    std::vector<RasterGrid> grids;
-    for (auto& layer : RasterLayer::layersOf(imageOptions(settings))) {
-        for (const RasterLayer::Member& member : layer->members()) grids.push_back(member.grid);
-        _layers.push_back({std::make_unique<ImageSource>(std::move(layer)), {}});
+    for (auto& layer : RasterLayer::imagesOf(settings)) {
+        _layers.push_back(std::make_unique<ImageSource>(std::move(layer)));
     }
-    for (Layer& layer : _layers) {
-        for (const RasterLayer::Member& member : layer.image->layer().members()) {
-            BlendBand band(member.grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
-            if (!band.isEmpty()) layer.bands.push_back(std::move(band));
-        }
-    }
-}
-
-double ImageMosaic::Layer::share(const PositionDeg& position) const noexcept {
-    double share = 1.0;
-    for (const BlendBand& band : bands) share = std::min(share, band.share(position));
-    return share;
 }
 
 int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
     const RectDeg rect = tile.rect();
-    const Layer* finest = nullptr;
+    const ImageSource* finest = nullptr;
     bool isCovered = false;
-    for (const Layer& layer : _layers) {
-        if (!finest && layer.image->overlaps(rect)) finest = &layer;
-        isCovered = isCovered || layer.image->covers(rect);
+    for (const auto& layer : _layers) {
+        if (!finest && layer->overlaps(rect)) finest = layer.get();
+        isCovered = isCovered || layer->covers(rect);
     }
     if (!finest) return 0;
-    const double pixels = std::ldexp(TileLayout::kStartTileDeg, -tile.level) / finest->image->grid().resolutionDeg();
+    const double pixels = std::ldexp(TileLayout::kStartTileDeg, -tile.level) / finest->grid().resolutionDeg();
     const double wanted = isCovered ? pixels : std::max(pixels, static_cast<double>(cells));
     int size = kSmallest;
     while (size < kLargest && size < wanted) size *= 2;
@@ -222,9 +196,9 @@ int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
 
 Cover ImageMosaic::sample(std::size_t first, const PositionDeg& position) const noexcept {
     for (std::size_t i = first; i < _loaded.size(); ++i) {
-        const Cover own = _loaded[i]->image->sample(position);
+        const Cover own = _loaded[i]->sample(position);
         if (own.alpha == 0.0) continue;
-        const double share = _loaded[i]->share(position);
+        const double share = _loaded[i]->layer().share(position);
         if (own.alpha == 1.0 && share == 1.0) return own;
         const Cover below = sample(i + 1, position);
         // In its band an image gives way to coarser images, and not to the relief.
@@ -237,8 +211,8 @@ osg::ref_ptr<osg::Image> ImageMosaic::texture(const TileId& tile, const osgAnaly
     const RectDeg rect = tile.rect();
     const int size = grid.textureSize;
     _loaded.clear();
-    for (const Layer& layer : _layers) {
-        if (layer.image->load(rect, 2 * size)) _loaded.push_back(&layer);
+    for (const auto& layer : _layers) {
+        if (layer->load(rect, 2 * size)) _loaded.push_back(layer.get());
     }
     std::optional<Relief> relief;
     const osg::ref_ptr<osg::Image> image = new osg::Image;

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "BlendBand.h"
 #include "RasterLayer.h"
 #include "Settings.h"
 #include "TerrainGrid.h"
@@ -69,9 +68,6 @@ private:
     std::vector<Patch> _patches;
 };
 
-/// The images of the command line, as they are to be opened.
-[[nodiscard]] std::vector<RasterOptions> imageOptions(const Settings& settings);
-
 /// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, its
 /// border blended with coarser ones, and the colours of the relief where none has.
 /// Of equally fine images the one named first counts. Not for use by several threads: each has its own.
@@ -89,19 +85,11 @@ public:
     [[nodiscard]] osg::ref_ptr<osg::Image> texture(const TileId& tile, const osgAnalyticBin::TerrainGrid& grid);
 
 private:
-    struct Layer {
-        std::unique_ptr<ImageSource> image;
-        /// Of the images that have one.
-        std::vector<BlendBand> bands;
-
-        [[nodiscard]] double share(const PositionDeg& position) const noexcept;
-    };
-
     /// Of the layers with a part in the tile from this one on, finest first.
     [[nodiscard]] Cover sample(std::size_t first, const PositionDeg& position) const noexcept;
 
-    std::vector<Layer> _layers;
-    std::vector<const Layer*> _loaded;
+    std::vector<std::unique_ptr<ImageSource>> _layers;
+    std::vector<const ImageSource*> _loaded;
 };
 
 }  // namespace osgbindem

@@ -5,7 +5,6 @@
 
 #include "Failure.h"
 #include "ModuleFolder.h"
-#include "RankLink.h"
 
 #include <algorithm>
 #include <chrono>
@@ -32,11 +31,6 @@ constexpr const char* kRankVariables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "
 // What MPI says counts more than the environment: launcher and library may not know each other.
 std::optional<int> startedRank;
 
-bool isLaunched() {
-    return std::any_of(std::begin(kSizeVariables), std::end(kSizeVariables),
-                       [](const char* name) { return std::getenv(name) != nullptr; });
-}
-
 bool isLaunchedAlone() {
     const char* size = std::getenv(kSizeVariables[0]);
     return size && std::atoi(size) == 1;
@@ -44,11 +38,12 @@ bool isLaunchedAlone() {
 
 }  // namespace
 
-bool Ranks::isStartedByMpi() {
-    return isLaunched();
+bool isStartedByMpi() {
+    return std::any_of(std::begin(kSizeVariables), std::end(kSizeVariables),
+                       [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-bool Ranks::isSpeaker() {
+bool isSpeaker() {
     if (startedRank) return *startedRank == 0;
     for (const char* name : kRankVariables) {
         if (const char* value = std::getenv(name)) return std::atoi(value) == 0;
@@ -56,7 +51,7 @@ bool Ranks::isSpeaker() {
     return true;
 }
 
-void Ranks::leaveAfterSignal() {
+void leaveAfterSignal() {
     std::_Exit(kInterrupted);
 }
 
@@ -74,39 +69,23 @@ int threadsPerRank(const Ranks& ranks) {
     return std::max(1, std::min(bound, machine / ranks.countHere()));
 }
 
-Ranks::Ranks() {
-    if (!isLaunched()) return;
+std::unique_ptr<Ranks> joinRanks() {
+    if (!isStartedByMpi()) return std::make_unique<Ranks>();
     const std::string module = moduleFolder() + "osganalyticbin/osgbindem_mpi.so";
     // MPI's own modules look for its functions among those of the program.
     void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
     const auto join = library ? reinterpret_cast<JoinRanks>(dlsym(library, kJoinRanks)) : nullptr;
     if (!join) {
-        if (isLaunchedAlone()) return;
+        if (isLaunchedAlone()) return std::make_unique<Ranks>();
         throw Failure(
             "without its module for MPI osgbindem runs alone: run it without mpirun, or install the module "
             "(on Debian: osganalyticbin-mpi); " +
             std::string(dlerror()));
     }
-    _link.reset(join());
-    if (!_link) throw Failure("MPI does not start as threads need it; run osgbindem without mpirun");
-    _rank = _link->rank();
-    _count = _link->count();
-    _countHere = _link->countHere();
-    startedRank = _rank;
-}
-
-Ranks::~Ranks() = default;
-
-void Ranks::sendFailure(const std::string& text) const {
-    if (_count > 1) _link->sendFailure(text);
-}
-
-std::optional<std::string> Ranks::failureElsewhere() const {
-    return _count > 1 ? _link->failureElsewhere() : std::nullopt;
-}
-
-bool Ranks::meet(bool hasFailed, const std::function<void()>& glance) const {
-    return _count > 1 ? _link->meet(hasFailed, glance) : hasFailed;
+    std::unique_ptr<Ranks> ranks(join());
+    if (!ranks) throw Failure("MPI does not start as threads need it; run osgbindem without mpirun");
+    startedRank = ranks->rank();
+    return ranks;
 }
 
 }  // namespace osgbindem

@@ -10,47 +10,46 @@
 
 namespace osgbindem {
 
-class RankLink;
-
-/// The programs that mpirun has started together; a single one without mpirun. Only mpirun's environment makes MPI load
-/// and start, which takes a tenth of a second. To be used by the thread that made it.
-class Ranks final {
+/// The programs that mpirun has started together; a single one without mpirun. To be used by the thread that made it.
+class Ranks {
 public:
-    /// Throws Failure.
-    Ranks();
+    Ranks() = default;
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;
-    ~Ranks();
+    /// Waits until all others have come here, and ends MPI.
+    virtual ~Ranks() = default;
 
-    /// Whether mpirun started the program; then what looks like a terminal may be none.
-    [[nodiscard]] static bool isStartedByMpi();
-
-    /// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has
-    /// started.
-    [[nodiscard]] static bool isSpeaker();
-
-    [[nodiscard]] int count() const { return _count; }
-    [[nodiscard]] int rank() const { return _rank; }
-    [[nodiscard]] bool isFirst() const { return _rank == 0; }
+    [[nodiscard]] virtual int count() const { return 1; }
+    [[nodiscard]] virtual int rank() const { return 0; }
+    [[nodiscard]] bool isFirst() const { return rank() == 0; }
     /// Of those on this machine.
-    [[nodiscard]] int countHere() const { return _countHere; }
+    [[nodiscard]] virtual int countHere() const { return 1; }
 
     /// Tells all others why this one cannot go on: a short text.
-    void sendFailure(const std::string& text) const;
+    virtual void sendFailure(const std::string&) const {}
     /// Returns at once: what another one said by sendFailure(); nullopt when none has.
-    [[nodiscard]] std::optional<std::string> failureElsewhere() const;
+    [[nodiscard]] virtual std::optional<std::string> failureElsewhere() const { return std::nullopt; }
     /// Waits until every rank has come to this call, without using the processor; `glance` is called meanwhile. Kills
     /// all when the others of a rank that has failed do not come within a minute. Returns: whether any has failed.
-    [[nodiscard]] bool meet(bool hasFailed, const std::function<void()>& glance) const;
-    /// Ends the program, MPI's part left out, as mpirun wants it after a signal.
-    [[noreturn]] static void leaveAfterSignal();
-
-private:
-    std::unique_ptr<RankLink> _link;  // null: without mpirun
-    int _rank = 0;
-    int _count = 1;
-    int _countHere = 1;
+    [[nodiscard]] virtual bool meet(bool hasFailed, const std::function<void()>& /*glance*/) const { return hasFailed; }
 };
+
+/// The function of the module osgbindem_mpi, and its name. The program starts where MPI is not installed. Returns: null
+/// where MPI does not start as threads need it.
+using JoinRanks = Ranks* (*)();
+constexpr const char* kJoinRanks = "osgbindemJoinRanks";
+
+/// Only mpirun's environment makes MPI load and start, which takes a tenth of a second. Throws Failure.
+[[nodiscard]] std::unique_ptr<Ranks> joinRanks();
+
+/// Whether mpirun started the program; then what looks like a terminal may be none.
+[[nodiscard]] bool isStartedByMpi();
+
+/// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has started.
+[[nodiscard]] bool isSpeaker();
+
+/// Ends the program, MPI's part left out, as mpirun wants it after a signal.
+[[noreturn]] void leaveAfterSignal();
 
 /// Between two glances at what others say.
 void waitABit();

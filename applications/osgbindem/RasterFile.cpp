@@ -4,9 +4,7 @@
 #include "RasterFile.h"
 
 #include "Failure.h"
-#include "HeightDataset.h"
 #include "Interruption.h"
-#include "RasterColours.h"
 
 #include <cpl_string.h>
 #include <ogr_spatialref.h>
@@ -26,10 +24,6 @@ namespace {
 
 // An overview's posts are not exactly twice as far apart when the raster has an odd number of them.
 constexpr double kSlack = 1e-3;
-
-// Metres beyond which no terrain of the earth lies, and none of any other body.
-constexpr double kHighestOnEarth = 12000.0;
-constexpr double kHighest = 1e5;
 
 const OGRSpatialReference& wgs84() {
     static thread_local const OGRSpatialReference reference = [] {
@@ -131,11 +125,6 @@ void requireGeoreferencing(GDALDataset& dataset, const std::string& path) {
     }
 }
 
-const OGRSpatialReference* referenceOf(GDALDataset& dataset) {
-    const OGRSpatialReference* reference = dataset.GetSpatialRef();
-    return reference != nullptr ? reference : dataset.GetGCPSpatialRef();
-}
-
 bool isOfEarth(const OGRSpatialReference& reference) {
     constexpr double kMost = 0.01;  // spheres and ellipsoids of the earth differ by less
     return std::abs(reference.GetSemiMajor() / wgs84().GetSemiMajor() - 1.0) < kMost;
@@ -161,93 +150,6 @@ std::string verticalOf(const OGRSpatialReference& reference) {
     return result;
 }
 
-/// What the raster says of its unit; nullopt for units that are no length.
-std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpatialReference* reference) {
-    std::string unit = band.GetUnitType();
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (unit.empty()) {
-        const bool isCompound = reference != nullptr && reference->IsCompound() != 0;
-        return isCompound ? reference->GetTargetLinearUnits("VERT_CS") : 1.0;
-    }
-    struct Unit {
-        const char* start;
-        double metres;
-    };
-    constexpr double kFoot = 0.3048;
-    constexpr double kSurveyFoot = 1200.0 / 3937.0;
-    for (const Unit& known : {Unit{"us survey f", kSurveyFoot}, Unit{"us_survey_f", kSurveyFoot},
-                              Unit{"ftus", kSurveyFoot}, Unit{"us-ft", kSurveyFoot}, Unit{"foot_us", kSurveyFoot},
-                              Unit{"ft", kFoot}, Unit{"f", kFoot}, Unit{"international f", kFoot}, Unit{"km", 1000.0},
-                              Unit{"kilomet", 1000.0}, Unit{"cm", 0.01}, Unit{"centimet", 0.01}, Unit{"dm", 0.1},
-                              Unit{"decimet", 0.1}, Unit{"mm", 0.001}, Unit{"millimet", 0.001}, Unit{"met", 1.0}}) {
-        if (unit.rfind(known.start, 0) == 0) return known.metres;
-    }
-    return unit == "m" ? std::optional(1.0) : std::nullopt;
-}
-
-GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& band) {
-    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
-        GDALRasterBand* other = dataset.GetRasterBand(i);
-        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) return other;
-    }
-    return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0 ? nullptr : band.GetMaskBand();
-}
-
-/// The band with the heights; `notes` get a word when it is one of several.
-GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, std::vector<std::string>& notes) {
-    const int count = file.GetRasterCount();
-    const int number = options.band.value_or(1);
-    if (number > count) {
-        throw Failure("no band " + std::to_string(number) + " in \"" + options.path + "\", which has " +
-                      std::to_string(count) + "; see --band");
-    }
-    GDALRasterBand& band = *file.GetRasterBand(number);
-    int others = 0;
-    for (int i = 1; i <= count; ++i) {
-        if (i != number && file.GetRasterBand(i)->GetColorInterpretation() != GCI_AlphaBand) ++others;
-    }
-    if (others > 0 && !options.band) {
-        const std::string name = band.GetDescription();
-        notes.push_back("band " + std::to_string(number) + " of " + std::to_string(count) +
-                        (name.empty() ? name : ", \"" + name + "\",") + " has the heights; see --band");
-    }
-    return band;
-}
-
-GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference* horizontal,
-                      std::vector<std::string>& notes) {
-    GDALRasterBand& band = heightBandOf(file, options, notes);
-    HeightCode code;
-    int hasNodata = 0;
-    const double nodata = band.GetNoDataValue(&hasNodata);
-    if (hasNodata != 0) code.nodata = nodata;
-    if (options.nodata) code.nodata = options.nodata;
-    const OGRSpatialReference* reference = referenceOf(file);
-    const auto declared = declaredMetresPerUnit(band, reference);
-    if (!declared && !options.metresPerUnit) {
-        throw Failure("heights of \"" + options.path + "\" are in \"" + band.GetUnitType() +
-                      "\", which is no length that is known; give --height-unit");
-    }
-    const double metres = options.metresPerUnit.value_or(declared.value_or(1.0));
-    if (!options.metresPerUnit && metres != 1.0) {
-        notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
-    }
-    code.scale = band.GetScale() * metres;
-    code.offset = band.GetOffset() * metres;
-    const double radius = reference != nullptr ? reference->GetSemiMajor() : wgs84().GetSemiMajor();
-    if (code.offset > 0.5 * radius) {
-        throw Failure("heights of \"" + options.path +
-                      "\" are distances from the middle of the body, with an offset of " +
-                      std::string(CPLSPrintf("%.9g", code.offset)) +
-                      " m; take it away with gdal_edit.py -offset 0, and see --radii");
-    }
-    // A user's factor may exaggerate heights.
-    const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
-    code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
-    code.mask = maskOf(file, band);
-    return GdalDataset(new HeightDataset(band, code, horizontal));
-}
-
 }  // namespace
 
 RasterFile::RasterFile(const RasterOptions& options) : _path(options.path) {
@@ -266,7 +168,7 @@ void RasterFile::open(const RasterOptions& options, int overview) {
     horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (options.isElevation) {
         _notes.clear();
-        _decoded = heightsOf(*_file, options, &horizontal, _notes);
+        _decoded = heightsOf(*_file, options, horizontal, _notes);
     } else {
         _decoded = coloursOf(*_file, _path);
     }
@@ -378,21 +280,21 @@ RasterLook RasterFile::look() const {
     // GDAL reads these posts from an overview where there is one, so that a server sends little.
     constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
     const int most = _file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
-    HeightBand& band = static_cast<HeightDataset&>(*_decoded).heights();
+    GDALRasterBand& band = *_decoded->GetRasterBand(1);
     const int width = std::min(most, band.GetXSize());
     const int rows = std::min(most, band.GetYSize());
     RasterLook look;
     look.posts = static_cast<double>(width) * rows;
     look.share = look.posts / (static_cast<double>(band.GetXSize()) * band.GetYSize());
-    const double before = band.marks();
+    const double before = marksOf(*_decoded).count;
     std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows));
     const CPLErr error = band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), heights.data(), width, rows,
                                        GDT_Float64, 0, 0, nullptr);
     if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
     look.missing = static_cast<double>(
         std::count_if(heights.begin(), heights.end(), [](double metres) { return std::isnan(metres); }));
-    look.marks = band.marks() - before;
-    look.lastMark = band.lastMark();
+    look.marks = marksOf(*_decoded).count - before;
+    look.lastMark = marksOf(*_decoded).last;
     return look;
 }
 

@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "Gdal.h"
 #include "PixelTransform.h"
+#include "RasterBands.h"
 #include "RasterGrid.h"
-
-#include <gdal_priv.h>
 
 #include <array>
 #include <memory>
@@ -18,21 +16,6 @@
 namespace osgbindem {
 
 using GeoTransform = std::array<double, 6>;
-
-struct RasterOptions {
-    std::string path;
-    std::optional<double> nodata;
-    /// The globe is WGS 84; else longitudes and latitudes are those of the raster's own ellipsoid.
-    bool isWgs84 = true;
-    /// Elevation, not colours.
-    bool isElevation = true;
-    /// No finer posts are needed: the raster's coarsest overview that is as fine counts as the raster; 0 for none.
-    double spacingDeg = 0.0;
-    /// As the user says; without it, by what the raster declares.
-    std::optional<double> metresPerUnit;
-    /// The band with heights, or a single one of an image; without it, the first with heights, or all colours.
-    std::optional<int> band;
-};
 
 /// What was looked at of an elevation raster: all of it, or evenly spread posts of a large one.
 struct RasterLook {

@@ -71,14 +71,7 @@ double RasterGrid::overlap(const RectDeg& rect) const noexcept {
 }
 
 bool RasterGrid::covers(const RectDeg& rect) const noexcept {
-    const double half = 0.5 + kSnap;
-    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
-    if (low < -half || high > _height - 1 + half) return false;
-    if (_isGlobal) return true;
-    const double turn = 360.0 / _dx;
-    const double west = columnOf(rect.west) + half;
-    const double start = west - std::floor(west / turn) * turn - half;
-    return start + (rect.east - rect.west) / _dx <= _width - 1 + half;
+    return overlap(rect) >= (1.0 - kSnap) * (rect.east - rect.west) * (rect.north - rect.south);
 }
 
 std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const noexcept {
@@ -111,16 +104,8 @@ std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const no
 std::vector<RasterGrid::Span> RasterGrid::spans(int first, int last) const {
     std::vector<Span> found;
     if (last < first) return found;
-    if (_isGlobal) {
-        const int count = last - first + 1;
-        if (count >= _width) return {{0, _width}};
-        const int start = ((first % _width) + _width) % _width;
-        const int direct = std::min(count, _width - start);
-        found.push_back({start, direct});
-        if (count > direct) found.push_back({0, count - direct});
-        return found;
-    }
-    const double turn = 360.0 / _dx;
+    if (_isGlobal && last - first >= _width) return {{0, _width}};
+    const double turn = _isGlobal ? _width : 360.0 / _dx;
     for (int k = -2; k <= 2; ++k) {
         const int a = std::max(0, floorOf(first + k * turn));
         const int b = std::min(_width - 1, ceilOf(last + k * turn));

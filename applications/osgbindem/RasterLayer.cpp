@@ -4,7 +4,6 @@
 #include "RasterLayer.h"
 
 #include "Failure.h"
-#include "TileLayout.h"
 
 #include <cpl_string.h>
 #include <gdal_utils.h>
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 namespace osgbindem {
 
@@ -24,31 +22,27 @@ namespace {
 // Spacings that differ by less are the same for rasters in different reference systems.
 constexpr double kSameSpacing = 1.05;
 
-/// Disjoint sets, which are joined one after the other.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : _parents(count) { std::iota(_parents.begin(), _parents.end(), 0); }
-    [[nodiscard]] std::size_t of(std::size_t i) const {
-        while (_parents[i] != i) i = _parents[i];
-        return i;
-    }
-    /// The set with the lower number gives the name.
-    void join(std::size_t a, std::size_t b) {
-        const auto [low, high] = std::minmax({of(a), of(b)});
-        _parents[high] = low;
-    }
-    /// The sets by their first members, in order.
-    [[nodiscard]] std::vector<std::vector<std::size_t>> all() const {
-        std::vector<std::vector<std::size_t>> found(_parents.size());
-        for (std::size_t i = 0; i < _parents.size(); ++i) found[of(i)].push_back(i);
-        found.erase(std::remove_if(found.begin(), found.end(), [](const auto& set) { return set.empty(); }),
-                    found.end());
-        return found;
-    }
+using Numbers = std::vector<std::size_t>;
 
-private:
-    std::vector<std::size_t> _parents;
-};
+/// Numbers below `count` in groups, by their first members in order. `fit(a, b, groupOfA, groupOfB)`: whether two that
+/// are in different groups make these one, of the lower of both names.
+template <typename Fit>
+std::vector<Numbers> grouped(std::size_t count, const Fit& fit) {
+    Numbers groups(count);
+    std::iota(groups.begin(), groups.end(), 0);
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a + 1; b < count; ++b) {
+            const std::pair<std::size_t, std::size_t> ends = std::minmax(groups[a], groups[b]);
+            if (ends.first == ends.second || !fit(a, b, groups[a], groups[b])) continue;
+            std::replace(groups.begin(), groups.end(), ends.second, ends.first);
+        }
+    }
+    std::vector<Numbers> found(count);
+    for (std::size_t i = 0; i < count; ++i) found[groups[i]].push_back(i);
+    found.erase(std::remove_if(found.begin(), found.end(), [](const auto& group) { return group.empty(); }),
+                found.end());
+    return found;
+}
 
 /// Whether intervals have no gap wider than this.
 bool meet(double aLow, double aHigh, double bLow, double bHigh, double gap) {
@@ -99,11 +93,9 @@ void addNumbers(CPLStringList& words, const char* name, std::initializer_list<do
     for (const double number : numbers) words.AddString(CPLSPrintf("%.17g", number));
 }
 
-GdalDataset mosaicOf(std::vector<GDALDataset*> datasets, const RectDeg& area, double dx, double dy,
-                     const std::string& path) {
+GdalDataset mosaicOf(std::vector<GDALDataset*> datasets, double dx, double dy, const std::string& path) {
     std::reverse(datasets.begin(), datasets.end());  // those named later are below
     CPLStringList words(CSLTokenizeString("-resolution user"));
-    addNumbers(words, "-te", {area.west, area.south, area.east, area.north});
     addNumbers(words, "-tr", {dx, dy});
     if (isElevation(*datasets.front())) {
         for (const char* word : {"-srcnodata", "nan", "-vrtnodata", "nan"}) words.AddString(word);
@@ -163,45 +155,47 @@ private:
 /// Makes layers of the rasters that are named.
 class RasterLayer::Builder {
 public:
-    Builder(const std::vector<RasterOptions>& rasters, std::optional<int> tileCells) : _tileCells(tileCells) {
+    Builder(const Settings& settings, const std::vector<RasterOptions>& rasters, std::optional<int> tileCells)
+        : _settings(settings), _tileCells(tileCells) {
         for (const RasterOptions& raster : rasters) _files.push_back(std::make_unique<RasterFile>(raster));
     }
 
-    [[nodiscard]] std::vector<std::unique_ptr<RasterLayer>> layers() {
-        Sets grids(_files.size());
-        forPairs(_files.size(), [&](std::size_t a, std::size_t b) {
-            if (haveOneGrid(*_files[a], *_files[b])) grids.join(a, b);
-        });
-        const std::vector<std::vector<std::size_t>> pieces = grids.all();
-        Sets layers(pieces.size());
+    [[nodiscard]] Layers layers() {
+        const std::vector<Numbers> pieces =
+            grouped(_files.size(), [&](std::size_t a, std::size_t b, std::size_t, std::size_t) {
+                return haveOneGrid(*_files[a], *_files[b]);
+            });
         std::vector<bool> hasPlain(pieces.size());
         for (std::size_t i = 0; i < pieces.size(); ++i) hasPlain[i] = _files[pieces[i].front()]->isPlain();
-        forPairs(pieces.size(), [&](std::size_t a, std::size_t b) {
-            const std::size_t first = layers.of(a);
-            const std::size_t second = layers.of(b);
+        const auto fit = [&](std::size_t a, std::size_t b, std::size_t first, std::size_t second) {
             // Posts of a raster in degrees of the globe stay where they are.
-            if (first == second || (hasPlain[first] && hasPlain[second]) || !canJoin(pieces[a], pieces[b])) return;
-            layers.join(a, b);
+            if ((hasPlain[first] && hasPlain[second]) || !canJoin(pieces[a], pieces[b])) return false;
             hasPlain[std::min(first, second)] = hasPlain[first] || hasPlain[second];
-        });
-        std::vector<std::unique_ptr<RasterLayer>> result;
-        for (const std::vector<std::size_t>& layer : layers.all()) {
-            std::vector<std::vector<std::size_t>> parts;
+            return true;
+        };
+        Layers result;
+        for (const Numbers& layer : grouped(pieces.size(), fit)) {
+            std::vector<Numbers> parts;
             for (const std::size_t i : layer) parts.push_back(pieces[i]);
             result.push_back(layerOf(parts));
         }
         std::stable_sort(result.begin(), result.end(),
                          [](const auto& a, const auto& b) { return a->spacingDeg() < b->spacingDeg(); });
+        blend(result);
         return result;
     }
 
 private:
-    using Numbers = std::vector<std::size_t>;
-
-    template <typename Visit>
-    static void forPairs(std::size_t count, const Visit& visit) {
-        for (std::size_t a = 0; a < count; ++a)
-            for (std::size_t b = a + 1; b < count; ++b) visit(a, b);
+    void blend(Layers& layers) const {
+        std::vector<RasterGrid> all;
+        for (const auto& layer : layers)
+            for (const Member& member : layer->_members) all.push_back(member.grid);
+        for (const auto& layer : layers) {
+            for (Member& member : layer->_members) {
+                member.band = BlendBand(member.grid, all, _settings.blend, _settings.ellipsoid.equatorialRadius());
+                if (!member.band.isEmpty()) layer->_bands.push_back(&member.band);
+            }
+        }
     }
 
     [[nodiscard]] bool canJoin(const Numbers& a, const Numbers& b) const {
@@ -232,7 +226,7 @@ private:
             for (const std::size_t number : part) {
                 piece.members.push_back(layer->_members.size());
                 layer->_members.push_back(
-                    {number, std::move(_files[number]), RasterGrid({0, 1, 0, 0, 0, -1}, 1, 1), {}});
+                    {number, std::move(_files[number]), RasterGrid({0, 1, 0, 0, 0, -1}, 1, 1), {}, {}});
             }
             piece.dataset = mosaic(*layer, piece);
             layer->_pieces.push_back(std::move(piece));
@@ -270,14 +264,10 @@ private:
     [[nodiscard]] static GDALDataset* mosaic(RasterLayer& layer, const Piece& piece) {
         if (piece.members.size() == 1) return &layer._members[piece.members.front()].file->dataset();
         const RasterFile& first = *layer._members[piece.members.front()].file;
-        RectDeg area = areaOf(first.dataset());
         std::vector<GDALDataset*> datasets;
-        for (const std::size_t i : piece.members) {
-            datasets.push_back(&layer._members[i].file->dataset());
-            area = unionOf(area, areaOf(*datasets.back()));
-        }
+        for (const std::size_t i : piece.members) datasets.push_back(&layer._members[i].file->dataset());
         return &layer._made.keep(
-            mosaicOf(std::move(datasets), area, first.transform()[1], -first.transform()[5], first.path()));
+            mosaicOf(std::move(datasets), first.transform()[1], -first.transform()[5], first.path()));
     }
 
     /// Brings all pieces to the lattice and makes one mosaic of them.
@@ -304,7 +294,7 @@ private:
         layer._dataset =
             datasets.size() == 1
                 ? datasets.front()
-                : &layer._made.keep(mosaicOf(std::move(datasets), *whole, lattice.dx(), lattice.dy(), layer.path()));
+                : &layer._made.keep(mosaicOf(std::move(datasets), lattice.dx(), lattice.dy(), layer.path()));
     }
 
     /// In the raster's own coordinates.
@@ -380,13 +370,36 @@ private:
                          static_cast<int>(std::lround(east - west)), static_cast<int>(std::lround(last - first))};
     }
 
+    const Settings& _settings;
     std::vector<std::unique_ptr<RasterFile>> _files;
     std::optional<int> _tileCells;
 };
 
-std::vector<std::unique_ptr<RasterLayer>> RasterLayer::layersOf(const std::vector<RasterOptions>& rasters,
-                                                                std::optional<int> tileCells) {
-    return Builder(rasters, tileCells).layers();
+RasterLayer::Layers RasterLayer::elevationOf(const Settings& settings, const TileLayout* layout) {
+    std::vector<RasterOptions> rasters;
+    for (const DemInput& dem : settings.dems) {
+        const bool hasSpacing = settings.useOverviews && layout;
+        rasters.push_back({dem.path, settings.nodata, settings.isWgs84, true,
+                           hasSpacing ? layout->spacingDeg(layout->deepestLevel()) : 0.0, dem.metresPerUnit,
+                           settings.band});
+    }
+    return Builder(settings, rasters, layout ? std::optional(layout->cells()) : std::nullopt).layers();
+}
+
+RasterLayer::Layers RasterLayer::imagesOf(const Settings& settings) {
+    std::vector<RasterOptions> rasters;
+    for (const std::string& path : settings.images) rasters.push_back({path, {}, settings.isWgs84, false, 0.0, {}, {}});
+    return Builder(settings, rasters, std::nullopt).layers();
+}
+
+double RasterLayer::share(const PositionDeg& position) const noexcept {
+    double share = 1.0;
+    for (const BlendBand* band : _bands) share = std::min(share, band->share(position));
+    return share;
+}
+
+bool RasterLayer::isBlendedIn(const RectDeg& rect) const noexcept {
+    return std::any_of(_bands.begin(), _bands.end(), [&](const BlendBand* band) { return band->touches(rect); });
 }
 
 void RasterLayer::forSources(const PixelWindow& window, const VisitSource& visit) const {

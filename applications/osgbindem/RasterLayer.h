@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include "BlendBand.h"
 #include "RasterFile.h"
+#include "Settings.h"
+#include "TileLayout.h"
 
 #include <cstddef>
 #include <functional>
@@ -20,10 +23,14 @@ namespace osgbindem {
 /// counts. Not for use by several threads.
 class RasterLayer final {
 public:
-    /// Opens all rasters; finest layers first, of equally fine ones the one named first. Throws Failure.
-    /// `tileCells`: cells along the edges of tiles, to warp to their posts.
-    [[nodiscard]] static std::vector<std::unique_ptr<RasterLayer>> layersOf(const std::vector<RasterOptions>& rasters,
-                                                                            std::optional<int> tileCells = {});
+    using Layers = std::vector<std::unique_ptr<RasterLayer>>;
+
+    /// Opens all elevation rasters of the command line; finest layers first, of equally fine ones the one named first.
+    /// For tiles of the layout where there is one: then of the overviews that are as fine, where settings allow them,
+    /// and warped to posts of tiles. Throws Failure.
+    [[nodiscard]] static Layers elevationOf(const Settings& settings, const TileLayout* layout);
+    /// The same of all images. Throws Failure.
+    [[nodiscard]] static Layers imagesOf(const Settings& settings);
 
     RasterLayer(const RasterLayer&) = delete;
     RasterLayer& operator=(const RasterLayer&) = delete;
@@ -34,6 +41,7 @@ public:
         std::unique_ptr<RasterFile> file;
         RasterGrid grid{{0.0, 1.0, 0.0, 0.0, 0.0, -1.0}, 1, 1};
         PixelWindow window;
+        BlendBand band;
     };
     [[nodiscard]] const std::vector<Member>& members() const noexcept { return _members; }
     [[nodiscard]] const std::string& path() const noexcept { return _members.front().file->path(); }
@@ -45,6 +53,11 @@ public:
     [[nodiscard]] double spacingDeg() const noexcept { return _spacingDeg; }
     [[nodiscard]] int width() const { return _dataset->GetRasterXSize(); }
     [[nodiscard]] int height() const { return _dataset->GetRasterYSize(); }
+
+    /// The layer's share of heights or colours, less than 1 in the bands at its rasters' borders; and whether a band
+    /// may reach into the rectangle.
+    [[nodiscard]] double share(const PositionDeg& position) const noexcept;
+    [[nodiscard]] bool isBlendedIn(const RectDeg& rect) const noexcept;
 
     /// Visits the pixels that are warped into a window of the layer, before they are.
     using VisitSource = std::function<void(GDALDataset& source, const PixelWindow& window)>;
@@ -77,6 +90,7 @@ private:
     };
 
     std::vector<Member> _members;
+    std::vector<const BlendBand*> _bands;
     Made _made;
     std::vector<Piece> _pieces;
     GDALDataset* _dataset = nullptr;

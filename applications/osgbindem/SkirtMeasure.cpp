@@ -14,6 +14,32 @@
 
 namespace osgbindem {
 
+namespace {
+
+// Enough for the neighbourhood of the tiles at work; the answers can be found again.
+constexpr std::size_t kMostKnown = 100000;
+
+}  // namespace
+
+bool EdgeDepths::hasChildren(const TileId& tile) {
+    if (tile.level >= _layout.deepestLevel() || !_layout.isInRegion(tile)) return false;
+    if (tile.level < _layout.startLevel()) return true;
+    const auto known = _known.find(tile);
+    if (known != _known.end()) return known->second;
+    const bool result = _mosaic.hasFinerData(tile.rect(), _layout.spacingDeg(tile.level));
+    if (_known.size() >= kMostKnown) _known.clear();
+    _known.emplace(tile, result);
+    return result;
+}
+
+int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {
+    const auto neighbour = tile.neighbour(edge);
+    if (!neighbour) return tile.level;
+    int level = _layout.startLevel();
+    while (level < tile.level && hasChildren(neighbour->ancestor(level))) ++level;
+    return level;
+}
+
 /// One edge of a tile as its posts in space.
 struct SkirtMeasure::Line {
     Edge edge;

@@ -3,8 +3,9 @@
 
 #pragma once
 
-#include "EdgeDepths.h"
+#include "DemMosaic.h"
 #include "HeightGrid.h"
+#include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -12,9 +13,27 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace osgbindem {
+
+/// Knows which tiles have children, and so how deep the tree is on either side of an edge.
+/// A tile has children when a raster finer than its posts has data in it, and the tile is part of the region.
+class EdgeDepths final {
+public:
+    EdgeDepths(DemMosaic& mosaic, const TileLayout& layout) : _mosaic(mosaic), _layout(layout) {}
+
+    [[nodiscard]] bool hasChildren(const TileId& tile);
+
+    /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
+    [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
+
+private:
+    DemMosaic& _mosaic;
+    const TileLayout& _layout;
+    std::map<TileId, bool> _known;
+};
 
 /// What hangs from one edge of a tile: metres per post, south to north or west to east.
 struct EdgeSkirt {

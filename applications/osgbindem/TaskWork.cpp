@@ -26,19 +26,19 @@ constexpr double kFewestTasks = 100.0;
 // Half a minute's work: as much is lost in each thread when a run is ended, and waited for at its end.
 constexpr double kMostWeight = 4096.0;
 
-Task taskFor(const TileId& tile, DemMosaic& mosaic, const TileLayout& layout) {
+Task taskFor(const TileId& tile, const DemMosaic& mosaic, const TileLayout& layout) {
     return {tile, 1.0 + mosaic.posts(tile.rect()) / (static_cast<double>(layout.cells()) * layout.cells())};
 }
 
-void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout,
-           std::vector<Task>& tasks) {
-    if (task.weight <= most || !depths.hasChildren(task.tile)) {
+/// In voids, tasks may be of tiles that are not there; nobody asks for what they leave.
+void split(const Task& task, double most, const DemMosaic& mosaic, const TileLayout& layout, std::vector<Task>& tasks) {
+    const TileId& tile = task.tile;
+    if (task.weight <= most || tile.level >= layout.deepestLevel() || !layout.isInRegion(tile) ||
+        !mosaic.hasFinerRaster(tile.rect(), layout.spacingDeg(tile.level))) {
         tasks.push_back(task);
         return;
     }
-    for (const TileId& child : task.tile.children()) {
-        split(taskFor(child, mosaic, layout), most, mosaic, depths, layout, tasks);
-    }
+    for (const TileId& child : tile.children()) split(taskFor(child, mosaic, layout), most, mosaic, layout, tasks);
 }
 
 /// Does a task, unless an earlier run has done it and its files are whole.
@@ -48,11 +48,37 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
         site.progress.addKnown(task.weight);
         return;
     }
-    builder.setLeafDone(
-        [&](const TileId& leaf) { site.progress.add(std::ldexp(task.weight, 2 * (task.tile.level - leaf.level))); });
+    double left = task.weight;
+    builder.setLeafDone([&](const TileId& leaf) {
+        const double share = std::ldexp(task.weight, 2 * (task.tile.level - leaf.level));
+        left -= share;
+        site.progress.add(share);
+    });
     (void)builder.takeFileSum();
     SurveyedTile tile = builder.survey(task.tile);
+    builder.setLeafDone({});
     site.state.keep({std::move(tile), builder.takeFileSum()});
+    site.progress.add(left);
+}
+
+void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
+    TileBuilder builder(site.settings, site.layout, site.files);
+    const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
+    builder.setFinishedTasks(standing);
+    while (const auto task = tasks.next()) {
+        doTask(*task, site, builder);
+        tasks.finish();
+    }
+    if (!starts || tasks.hasFailed()) return;
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
+        if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
+        auto record = site.state.find(tile, site.layout);
+        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
+        return std::move(record->tile);
+    });
+    starts->build(builder);
 }
 
 }  // namespace
@@ -80,7 +106,7 @@ double weightOf(const std::vector<Task>& tasks) {
     return sum;
 }
 
-std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
+std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
     std::vector<Task> starts;
     double sum = 0.0;
     for (const TileId& tile : layout.startTiles()) {
@@ -89,14 +115,8 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
     }
     std::vector<Task> tasks;
     const double most = std::min(sum / kFewestTasks, kMostWeight);
-    for (const Task& start : starts) split(start, most, mosaic, depths, layout, tasks);
+    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
     return tasks;
-}
-
-std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
-    DemMosaic mosaic(settings, &layout);
-    EdgeDepths depths(mosaic, layout);
-    return planTasks(mosaic, depths, layout);
 }
 
 std::optional<Task> TaskBoard::next() {
@@ -147,42 +167,18 @@ void TaskBoard::rethrow() const {
     if (_error) std::rethrow_exception(_error);
 }
 
-void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder) {
-    while (const auto task = tasks.next()) {
-        doTask(*task, site, builder);
-        tasks.finish();
-    }
-    builder.setLeafDone({});
-}
-
-FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks) {
-    std::set<TileId> tiles;
-    for (const Task& task : tasks) tiles.insert(task.tile);
-    return [&site, tiles](const TileId& tile) -> std::optional<SurveyedTile> {
-        if (tiles.count(tile) == 0) return std::nullopt;
-        auto record = site.state.find(tile, site.layout);
-        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
-        return std::move(record->tile);
-    };
-}
-
-Threads::Threads(int count, TaskBoard& tasks, const std::function<void()>& body) : _running(count) {
-    for (int i = 0; i < count; ++i) {
-        _threads.emplace_back([this, &tasks, body] {
+Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
+    Threads threads;
+    for (int i = 0; i < site.settings.threads; ++i) {
+        threads.push_back(std::async(std::launch::async, [&, starts] {
             try {
-                body();
+                work(site, plan, tasks, starts);
             } catch (...) {
                 tasks.fail(std::current_exception());
             }
-            --_running;
-        });
+        }));
     }
-}
-
-void Threads::join() {
-    for (std::thread& thread : _threads) {
-        if (thread.joinable()) thread.join();
-    }
+    return threads;
 }
 
 }  // namespace osgbindem

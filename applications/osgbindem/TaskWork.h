@@ -3,9 +3,8 @@
 
 #pragma once
 
-#include "BuildState.h"
+#include "DatabaseFolder.h"
 #include "DemMosaic.h"
-#include "EdgeDepths.h"
 #include "ProgressLine.h"
 #include "Ranks.h"
 #include "Settings.h"
@@ -15,24 +14,33 @@
 #include <cpl_progress.h>
 
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 namespace osgbindem {
+
+/// Builds the whole database, or what an earlier run of the same settings and rasters has left of it to do.
+/// Throws Failure, Interrupted; then what is done is kept beside the output for the next run, finished subtrees only.
+/// The other ranks only help; what went wrong there is thrown by the first one.
+void buildDatabase(const Settings& settings, const Ranks& ranks);
+
+/// Builds what has changed of a database since its rasters were other ones; the result is that of buildDatabase().
+/// Throws Failure, Interrupted; then the database is as it was, or, if the new files were on their way into it already,
+/// the next run of the program brings in the rest.
+void updateDatabase(const Settings& settings);
 
 /// Shows how much is done; may be used by several threads. On a terminal it is a line that is written over, with the
 /// time that is left; elsewhere it is GDAL's row of numbers.
 class Progress final {
 public:
     Progress(bool isShown, double total)
-        : _isShown(isShown), _isRow(!_line.isTerminal() || Ranks::isStartedByMpi()), _total(total) {
+        : _isShown(isShown), _isRow(!_line.isTerminal() || isStartedByMpi()), _total(total) {
         show();
     }
 
@@ -92,8 +100,8 @@ struct Task {
 
 /// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
 /// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
-[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout);
-[[nodiscard]] std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout);
+/// No raster is read.
+[[nodiscard]] std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout);
 
 [[nodiscard]] double weightOf(const std::vector<Task>& tasks);
 
@@ -131,35 +139,22 @@ private:
     std::exception_ptr _error;
 };
 
-/// What the threads share that build one database.
+/// What the threads share that build or update one database.
 struct Site {
     const Settings& settings;
     const TileLayout& layout;
     const TileFiles& files;
     const BuildState& state;
     Progress& progress;
+    /// Of a database that is updated: finds tiles that stay as they are, for a builder that lasts as long.
+    std::function<FinishedTasks(TileBuilder& builder)> standing = nullptr;
 };
 
-/// Does tasks as long as there are some, those left out that an earlier run has done and whose files are whole.
-void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder);
-
-/// Finds what tasks have left. Requires: they are finished. Finding throws Failure when their records are gone.
-[[nodiscard]] FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks);
-
-/// Threads with one body, whose errors go to the board of their tasks.
-class Threads final {
-public:
-    Threads(int count, TaskBoard& tasks, const std::function<void()>& body);
-    Threads(const Threads&) = delete;
-    Threads& operator=(const Threads&) = delete;
-    ~Threads() { join(); }
-
-    [[nodiscard]] bool areRunning() const { return _running > 0; }
-    void join();
-
-private:
-    std::atomic<int> _running;
-    std::vector<std::thread> _threads;
-};
+/// Threads, which are waited for when they are cleared. Each does tasks as long as there are some, those left out that
+/// an earlier run has done and whose files are whole, then its part of the start tiles, from what all tasks of the plan
+/// have left. What one throws goes to the board.
+using Threads = std::vector<std::future<void>>;
+[[nodiscard]] Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks,
+                                   StartTiles* starts);
 
 }  // namespace osgbindem

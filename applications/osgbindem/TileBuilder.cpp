@@ -4,7 +4,7 @@
 #include "TileBuilder.h"
 
 #include "Interruption.h"
-#include "NodeFile.h"
+#include "TileFiles.h"
 #include "TileMesh.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>

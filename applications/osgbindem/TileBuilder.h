@@ -4,7 +4,6 @@
 #pragma once
 
 #include "DemMosaic.h"
-#include "EdgeDepths.h"
 #include "HeightGrid.h"
 #include "ImageMosaic.h"
 #include "Settings.h"

@@ -4,19 +4,26 @@
 #include "TileFiles.h"
 
 #include "Checksum.h"
+#include "Failure.h"
 #include "Interruption.h"
+#include "ModuleFolder.h"
 #include "TextFile.h"
+
+#include <osg/Group>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/Registry>
 
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::checksumOf;
-using osgAnalyticBin::support::throwIfStopRequested;
-
 namespace fs = std::filesystem;
+using osgAnalyticBin::support::checksumOf;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
@@ -91,18 +98,46 @@ void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) cons
     osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
-FileSum TileFiles::sumBelow(const TileId& tile) const {
-    FileSum sum;
-    addBelow(tile, sum);
+FileSum TileFiles::sumBelow(const TileId& tile, FileSum sum) const {
+    throwIfStopRequested();
+    if (!hasChildren(tile)) return sum;
+    sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
+    if (tile.level + 1 >= TileLayout::kDeepest) return sum;
+    for (const TileId& child : tile.children()) sum = sumBelow(child, sum);
     return sum;
 }
 
-void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
-    throwIfStopRequested();
-    if (!hasChildren(tile)) return;
-    sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
-    if (tile.level + 1 >= TileLayout::kDeepest) return;
-    for (const TileId& child : tile.children()) addBelow(child, sum);
+namespace {
+
+osgDB::ReaderWriter& writer() {
+    osgDB::ReaderWriter* found = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
+    if (found == nullptr)
+        throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
+    return *found;
+}
+
+}  // namespace
+
+void prepareNodeFiles() {
+    osgAnalyticBin::addModuleFolder();
+    for (const char* name : {"osg::Group", "osgAnalyticBin::InstallBinsCallback", "osgAnalyticBin::PackedTerrain"}) {
+        if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name) == nullptr) {
+            throw Failure(std::string("OpenSceneGraph finds no serializer for ") + name +
+                          "; install this library's modules or set OSG_LIBRARY_PATH");
+        }
+    }
+    (void)nodeFileBytes(*osg::ref_ptr<osg::Node>(new osg::Group), true);
+}
+
+std::string nodeFileBytes(const osg::Node& node, bool compress) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setPluginStringData("fileType", "Binary");
+    options->setPluginStringData("WriteImageHint", "IncludeData");
+    if (compress) options->setPluginStringData("Compressor", "zlib");
+    std::ostringstream stream;
+    const osgDB::ReaderWriter::WriteResult result = writer().writeNode(node, stream, options);
+    if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
+    return stream.str();
 }
 
 }  // namespace osgbindem

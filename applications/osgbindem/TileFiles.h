@@ -5,6 +5,8 @@
 
 #include "TileLayout.h"
 
+#include <osg/Node>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -49,15 +51,20 @@ public:
     [[nodiscard]] std::string pathOfChildren(const TileId& tile) const;
     [[nodiscard]] bool hasChildren(const TileId& tile) const;
 
-    /// Reads back all files below a tile.
-    [[nodiscard]] FileSum sumBelow(const TileId& tile) const;
+    /// Reads back all files below a tile. Returns: `sum` with them.
+    [[nodiscard]] FileSum sumBelow(const TileId& tile, FileSum sum = {}) const;
 
 private:
-    void addBelow(const TileId& tile, FileSum& sum) const;
-
     std::string _folder;
     std::string _finalName;
     int _startLevel;
 };
+
+/// Makes ready what OpenSceneGraph loads on first use, so that threads find everything loaded.
+/// Throws Failure when the classes of a database cannot be stored.
+void prepareNodeFiles();
+
+/// The bytes of an .osgb file with the node. Throws Failure.
+[[nodiscard]] std::string nodeFileBytes(const osg::Node& node, bool compress);
 
 }  // namespace osgbindem

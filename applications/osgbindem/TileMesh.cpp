@@ -3,8 +3,8 @@
 
 #include "TileMesh.h"
 
-#include "Hypsometry.h"
 #include "PackedTerrain.h"
+#include "Relief.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -204,7 +204,7 @@ private:
 void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize) {
     grid.textureSize = textureSize;
     if (textureSize > 0) return;
-    grid.colours = hypsometricStops();
+    grid.colours = osgAnalyticBin::hypsometricStops();
     grid.relief = true;
 }
 

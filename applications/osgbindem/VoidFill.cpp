@@ -5,7 +5,6 @@
 
 #include "Failure.h"
 #include "Interruption.h"
-#include "RasterFile.h"
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
@@ -40,57 +39,41 @@ void require(CPLErr error, const char* what) {
     if (error != CE_None) throw Failure(std::string("cannot ") + what + " around missing heights: " + gdalMessage());
 }
 
-/// A raster of one band in memory.
+/// Numbers as a band of GDAL's, which works in their memory.
 class Plane {
 public:
-    Plane(int width, int height, GDALDataType type) : _width(width), _height(height) {
+    Plane(int width, int height, GDALDataType type, void* numbers) {
         GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-        _dataset.reset(driver == nullptr ? nullptr : driver->Create("", width, height, 1, type, nullptr));
+        _dataset.reset(driver == nullptr ? nullptr : driver->Create("", width, height, 0, type, nullptr));
         if (!_dataset) throw Failure("no memory to fill missing heights: " + gdalMessage());
+        CPLStringList words;
+        words.SetNameValue("DATAPOINTER", CPLSPrintf("%p", numbers));
+        require(_dataset->AddBand(type, words.List()), "work");
     }
 
     [[nodiscard]] GDALRasterBandH band() const { return GDALRasterBand::ToHandle(_dataset->GetRasterBand(1)); }
 
-    template <typename Number>
-    void write(std::vector<Number>& values, GDALDataType type) const {
-        transfer(GF_Write, values, type);
-    }
-    void read(std::vector<float>& values) const { transfer(GF_Read, values, GDT_Float32); }
-
 private:
-    template <typename Number>
-    void transfer(GDALRWFlag flag, std::vector<Number>& values, GDALDataType type) const {
-        require(GDALRasterIO(band(), flag, 0, 0, _width, _height, values.data(), _width, _height, type, 0, 0), "copy");
-    }
-
-    int _width;
-    int _height;
     GdalDataset _dataset;
 };
 
 /// Interpolates `values` where `isKnown` is 0 from where it is not.
 void interpolate(int width, int height, std::vector<float>& values, std::vector<GByte>& isKnown, double reach) {
-    const Plane plane(width, height, GDT_Float32);
-    const Plane mask(width, height, GDT_Byte);
-    plane.write(values, GDT_Float32);
-    mask.write(isKnown, GDT_Byte);
+    const Plane plane(width, height, GDT_Float32, values.data());
+    const Plane mask(width, height, GDT_Byte, isKnown.data());
     CPLStringList options(CSLTokenizeString("TEMP_FILE_DRIVER=MEM"));
     require(GDALFillNodata(plane.band(), mask.band(), reach, 0, kSmoothing, options.List(), nullptr, nullptr),
             "interpolate");
-    plane.read(values);
 }
 
 /// Posts to the nearest one with data; more than kReach where that is farther.
-std::vector<float> distancesTo(const std::vector<GByte>& isKnown, int width, int height) {
-    const Plane known(width, height, GDT_Byte);
-    const Plane distance(width, height, GDT_Float32);
-    std::vector<GByte> copy(isKnown);
-    known.write(copy, GDT_Byte);
+std::vector<float> distancesTo(std::vector<GByte> isKnown, int width, int height) {
+    std::vector<float> distances(isKnown.size());
+    const Plane known(width, height, GDT_Byte, isKnown.data());
+    const Plane distance(width, height, GDT_Float32, distances.data());
     CPLStringList options(CSLTokenizeString("VALUES=255 NODATA=100000"));
     options.SetNameValue("MAXDIST", std::to_string(VoidFill::kReach).c_str());
     require(GDALComputeProximity(known.band(), distance.band(), options.List(), nullptr, nullptr), "measure");
-    std::vector<float> distances(isKnown.size());
-    distance.read(distances);
     return distances;
 }
 
@@ -104,53 +87,51 @@ double fade(double value, double from, double to) {
 
 /// A block with the posts around it, as far as what is in the block depends on them.
 struct VoidFill::Window {
+    enum class Kind : char { Data, Rival, Outside, Narrow, Wide };
+
     /// Columns may be beyond the raster's by a turn of the globe.
     PixelWindow posts;
     PixelWindow block;
     std::vector<double> heights;
-    /// Of each post: beyond the raster's border, and that of a void too wide to be interpolated.
-    std::vector<bool> isOutside;
-    std::vector<bool> isWide;
-    /// Of each post: that of a rival's height.
-    std::vector<bool> isRival;
+    /// Of each post. What is missing is beyond the raster's border, or in a void.
+    std::vector<Kind> kinds;
 
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(posts.width) + static_cast<std::size_t>(x);
     }
-    [[nodiscard]] bool isMissing(int x, int y) const noexcept { return std::isnan(heights[index(x, y)]); }
+    [[nodiscard]] bool isVoid(std::size_t i) const noexcept { return kinds[i] >= Kind::Narrow; }
 
-    [[nodiscard]] bool isVoid(int x, int y) const noexcept { return isMissing(x, y) && !isOutside[index(x, y)]; }
-
-    /// Calls `visit(x, y, i)` for each missing post of the block within the raster, `i` counting the block's posts.
+    /// Calls `visit(x, y, index)` for each post of a rectangle that is within the window.
     template <typename Visit>
-    void forMissing(const Visit& visit) const {
-        std::size_t i = 0;
-        for (int row = block.row; row < block.row + block.height; ++row) {
-            for (int column = block.column; column < block.column + block.width; ++column, ++i) {
-                const int x = column - posts.column;
-                const int y = row - posts.row;
-                if (isVoid(x, y)) visit(x, y, i);
-            }
-        }
+    void forPosts(const PixelWindow& rect, const Visit& visit) const {
+        for (int y = std::max(rect.row - posts.row, 0); y < std::min(rect.row + rect.height - posts.row, posts.height);
+             ++y)
+            for (int x = std::max(rect.column - posts.column, 0);
+                 x < std::min(rect.column + rect.width - posts.column, posts.width); ++x)
+                visit(x, y, index(x, y));
+    }
+    template <typename Visit>
+    [[nodiscard]] bool hasNear(int x, int y, const Visit& is) const {
+        bool result = false;
+        forPosts({posts.column + x - 1, posts.row + y - 1, 3, 3},
+                 [&](int u, int v, std::size_t i) { result = is(u, v, i) || result; });
+        return result;
     }
 
     [[nodiscard]] std::vector<GByte> known() const {
-        std::vector<GByte> isKnown(heights.size());
-        std::transform(heights.begin(), heights.end(), isKnown.begin(),
-                       [](double height) { return static_cast<GByte>(std::isnan(height) ? 0 : 255); });
+        std::vector<GByte> isKnown(kinds.size());
+        std::transform(kinds.begin(), kinds.end(), isKnown.begin(),
+                       [](Kind kind) { return static_cast<GByte>(kind <= Kind::Rival ? 255 : 0); });
         return isKnown;
     }
 
     /// Tells narrow voids from wide ones. Those along the raster's border are wide.
     /// `distances`: posts to the nearest one with data.
     void sortVoids(const std::vector<float>& distances) {
-        isWide.assign(heights.size(), false);
-        std::vector<bool> isSeen(heights.size(), false);
-        for (int y = 0; y < posts.height; ++y) {
-            for (int x = 0; x < posts.width; ++x) {
-                if (isVoid(x, y) && !isSeen[index(x, y)]) sortVoid(x, y, isSeen, distances);
-            }
-        }
+        std::vector<bool> isSeen(kinds.size(), false);
+        forPosts(posts, [&](int x, int y, std::size_t i) {
+            if (isVoid(i) && !isSeen[i]) sortVoid(x, y, isSeen, distances);
+        });
     }
 
 private:
@@ -163,27 +144,25 @@ private:
         for (std::size_t next = 0; next < found.size(); ++next) {
             const auto [x, y] = found[next];
             isNarrow = isNarrow && distances[index(x, y)] <= 0.5F * kNarrow;
-            bool isAtBorder = false;
-            for (int v = std::max(0, y - 1); v <= std::min(posts.height - 1, y + 1); ++v) {
-                for (int u = std::max(0, x - 1); u <= std::min(posts.width - 1, x + 1); ++u) {
-                    isAtBorder = isAtBorder || isOutside[index(u, v)];
-                    if (!isVoid(u, v) || isSeen[index(u, v)]) continue;
-                    isSeen[index(u, v)] = true;
+            const bool isAtBorder = hasNear(x, y, [&](int u, int v, std::size_t i) {
+                if (isVoid(i) && !isSeen[i]) {
+                    isSeen[i] = true;
                     found.emplace_back(u, v);
                 }
-            }
+                return kinds[i] == Kind::Outside;
+            });
             if (isAtBorder) ++atBorder;
         }
         if (isNarrow && kMostAtBorder * atBorder <= found.size()) return;
-        for (const auto& [x, y] : found) isWide[index(x, y)] = true;
+        for (const auto& [x, y] : found) kinds[index(x, y)] = Kind::Wide;
     }
 };
 
 VoidFill::Below VoidFill::at(int column, int row) {
-    const int blocksPerRow = (_shape.width + kVoidBlock - 1) / kVoidBlock;
+    const int blocksPerRow = (_width + kVoidBlock - 1) / kVoidBlock;
     const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
-                            std::min(kVoidBlock, _shape.width - column / kVoidBlock * kVoidBlock),
-                            std::min(kVoidBlock, _shape.height - row / kVoidBlock * kVoidBlock)};
+                            std::min(kVoidBlock, _width - column / kVoidBlock * kVoidBlock),
+                            std::min(kVoidBlock, _height - row / kVoidBlock * kVoidBlock)};
     const int number = row / kVoidBlock * blocksPerRow + column / kVoidBlock;
     auto found = _blocks.find(number);
     if (found == _blocks.end()) {
@@ -205,24 +184,24 @@ void VoidFill::read(Window& window) const {
     const PixelWindow& block = window.block;
     PixelWindow& posts = window.posts;
     // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
-    const int west = _shape.isGlobal ? block.column - kBorder : std::max(block.column - kBorder, -1);
-    const int east = _shape.isGlobal ? block.column + block.width + kBorder
-                                     : std::min(block.column + block.width + kBorder, _shape.width + 1);
+    const int west = isGlobal() ? block.column - kBorder : std::max(block.column - kBorder, -1);
+    const int east =
+        isGlobal() ? block.column + block.width + kBorder : std::min(block.column + block.width + kBorder, _width + 1);
     const int first = std::max(block.row - kBorder, -1);
-    const int last = std::min(block.row + block.height + kBorder, _shape.height + 1);
+    const int last = std::min(block.row + block.height + kBorder, _height + 1);
     posts = {west, first, east - west, last - first};
     window.heights.assign(static_cast<std::size_t>(posts.width) * static_cast<std::size_t>(posts.height),
                           std::numeric_limits<double>::quiet_NaN());
     const int firstInside = std::max(first, 0);
-    const int rows = std::min(last, _shape.height) - firstInside;
+    const int rows = std::min(last, _height) - firstInside;
     std::vector<double> part;
     for (int column = west; column < east;) {
         const int inside = inRaster(column);
-        if (inside < 0 || inside >= _shape.width) {
+        if (inside < 0 || inside >= _width) {
             ++column;
             continue;
         }
-        const int width = std::min(east - column, _shape.width - inside);
+        const int width = std::min(east - column, _width - inside);
         _read({inside, firstInside, width, rows}, part);
         for (int row = 0; row < rows; ++row) {
             const auto from = part.begin() + static_cast<std::ptrdiff_t>(row) * width;
@@ -234,117 +213,91 @@ void VoidFill::read(Window& window) const {
     }
 }
 
-void VoidFill::findOutside(Window& window) const {
-    const PixelWindow& posts = window.posts;
-    window.isOutside.assign(window.heights.size(), true);
-    for (const PixelWindow& part : _shape.parts) {
-        const int turns = _shape.isGlobal ? 1 : 0;
+void VoidFill::findKinds(Window& window) const {
+    using Kind = Window::Kind;
+    window.kinds.resize(window.heights.size());
+    std::transform(window.heights.begin(), window.heights.end(), window.kinds.begin(),
+                   [](double height) { return std::isnan(height) ? Kind::Outside : Kind::Data; });
+    const int turns = isGlobal() ? 1 : 0;
+    for (const RasterLayer::Member& member : _layer.members()) {
         for (int turn = -turns; turn <= turns; ++turn) {
-            const int column = part.column + turn * _shape.width;
-            const int west = std::max(column - posts.column, 0);
-            const int east = std::min(column + part.width - posts.column, posts.width);
-            const int first = std::max(part.row - posts.row, 0);
-            const int last = std::min(part.row + part.height - posts.row, posts.height);
-            for (int y = first; y < last; ++y)
-                for (int x = west; x < east; ++x) window.isOutside[window.index(x, y)] = false;
-        }
-    }
-}
-
-void VoidFill::takeRivals(Window& window) const {
-    for (int y = 0; y < window.posts.height; ++y) {
-        for (int x = 0; x < window.posts.width; ++x) {
-            if (!window.isVoid(x, y)) continue;
-            const Below below = belowAt(window, x, y);
-            if (!below.isRival) continue;
-            window.heights[window.index(x, y)] = below.height;
-            window.isRival[window.index(x, y)] = true;
+            PixelWindow part = member.window;
+            part.column += turn * _width;
+            window.forPosts(part, [&](int x, int y, std::size_t i) {
+                if (window.kinds[i] != Kind::Outside) return;
+                const Below below = _hasRivals ? belowAt(window, x, y) : Below();
+                window.kinds[i] = below.isRival ? Kind::Rival : Kind::Narrow;
+                if (below.isRival) window.heights[i] = below.height;
+            });
         }
     }
 }
 
 VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
+    using Kind = Window::Kind;
     Window window;
     window.block = block;
     read(window);
-    window.isRival.assign(window.heights.size(), false);
-    findOutside(window);
-    if (_hasRivals) takeRivals(window);
+    findKinds(window);
     const std::vector<GByte> isKnown = window.known();
     if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
     const std::vector<float> distances = distancesTo(isKnown, window.posts.width, window.posts.height);
     window.sortVoids(distances);
-    Block result;
     bool hasNarrow = false;
     bool hasWide = false;
-    for (int row = block.row; row < block.row + block.height; ++row) {
-        for (int column = block.column; column < block.column + block.width; ++column) {
-            const std::size_t i = window.index(column - window.posts.column, row - window.posts.row);
-            result.isRival.push_back(window.isRival[i]);
-            result.heights.push_back(window.isRival[i] ? static_cast<float>(window.heights[i]) : kVoid);
-        }
-    }
-    window.forMissing(
-        [&](int x, int y, std::size_t) { (window.isWide[window.index(x, y)] ? hasWide : hasNarrow) = true; });
-    if (hasNarrow) interpolateNarrow(window, result.heights);
-    if (hasWide && _coarser) addDifferences(window, distances, result.heights);
+    window.forPosts(block, [&](int, int, std::size_t i) {
+        hasNarrow = hasNarrow || window.kinds[i] == Kind::Narrow;
+        hasWide = hasWide || window.kinds[i] == Kind::Wide;
+    });
+    const std::vector<float> narrow = hasNarrow ? interpolated(window) : std::vector<float>();
+    const std::vector<float> differences = hasWide && _coarser ? differencesOf(window) : std::vector<float>();
+    Block result;
+    window.forPosts(block, [&](int x, int y, std::size_t i) {
+        const Kind kind = window.kinds[i];
+        result.isRival.push_back(kind == Kind::Rival);
+        float& height = result.heights.emplace_back(kVoid);
+        if (kind == Kind::Rival) height = static_cast<float>(window.heights[i]);
+        if (kind == Kind::Narrow) height = narrow[i];
+        if (kind != Kind::Wide || !_coarser || distances[i] >= kReach) return;
+        const double coarser = belowAt(window, x, y).height;
+        const double onLand = fade(distances[i], 0.5 * kReach, kReach);
+        const double inSea = fade(distances[i], 0.0, kSeaReach);
+        const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));
+        height = static_cast<float>(coarser + share * differences[i]);
+    });
     return result;
 }
 
-void VoidFill::interpolateNarrow(const Window& window, std::vector<float>& result) const {
+std::vector<float> VoidFill::interpolated(const Window& window) {
     std::vector<float> values(window.heights.begin(), window.heights.end());
     std::vector<GByte> isKnown(values.size(), 255);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!std::isnan(values[i])) continue;
         // Wide voids touch no narrow one, so what they hold is of no account.
-        values[i] = 0.0F;
-        if (!window.isWide[i]) isKnown[i] = 0;
+        if (std::isnan(values[i])) values[i] = 0.0F;
+        if (window.kinds[i] == Window::Kind::Narrow || window.kinds[i] == Window::Kind::Outside) isKnown[i] = 0;
     }
     interpolate(window.posts.width, window.posts.height, values, isKnown, kNarrow);
-    window.forMissing([&](int x, int y, std::size_t i) {
-        if (!window.isWide[window.index(x, y)]) result[i] = values[window.index(x, y)];
-    });
+    return values;
 }
 
 VoidFill::Below VoidFill::belowAt(const Window& window, int x, int y) const {
     return _coarser(inRaster(window.posts.column + x), window.posts.row + y);
 }
 
-void VoidFill::addDifferences(const Window& window, const std::vector<float>& distances,
-                              std::vector<float>& result) const {
-    const int width = window.posts.width;
-    const int height = window.posts.height;
+std::vector<float> VoidFill::differencesOf(const Window& window) const {
     std::vector<float> differences(window.heights.size(), 0.0F);
-    const auto isAtRim = [&](int x, int y) {
-        for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
-            for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
-                if (window.isMissing(u, v)) return true;
-        return false;
-    };
-    // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
     std::vector<GByte> isKnown = window.known();
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = window.index(x, y);
-            if (window.isOutside[i]) isKnown[i] = 255;
-            if (window.isMissing(x, y) || !isAtRim(x, y)) continue;
-            const double difference = window.heights[i] - belowAt(window, x, y).height;
-            if (std::isnan(difference))
-                isKnown[i] = 0;
-            else
-                differences[i] = static_cast<float>(difference);
-        }
-    }
-    interpolate(width, height, differences, isKnown, kReach);
-    window.forMissing([&](int x, int y, std::size_t i) {
-        const std::size_t j = window.index(x, y);
-        if (!window.isWide[j] || distances[j] >= kReach) return;
-        const double coarser = belowAt(window, x, y).height;
-        const double onLand = fade(distances[j], 0.5 * kReach, kReach);
-        const double inSea = fade(distances[j], 0.0, kSeaReach);
-        const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));
-        result[i] = static_cast<float>(coarser + share * differences[j]);
+    const auto isMissing = [&](int, int, std::size_t i) { return std::isnan(window.heights[i]); };
+    window.forPosts(window.posts, [&](int x, int y, std::size_t i) {
+        if (window.kinds[i] == Window::Kind::Outside) isKnown[i] = 255;
+        if (isMissing(x, y, i) || !window.hasNear(x, y, isMissing)) return;
+        // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
+        const double difference = window.heights[i] - belowAt(window, x, y).height;
+        isKnown[i] = std::isnan(difference) ? 0 : 255;
+        if (isKnown[i] != 0) differences[i] = static_cast<float>(difference);
     });
+    interpolate(window.posts.width, window.posts.height, differences, isKnown, kReach);
+    return differences;
 }
 
 }  // namespace osgbindem

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "RasterGrid.h"
+#include "RasterLayer.h"
 
 #include <functional>
 #include <limits>
@@ -43,18 +43,16 @@ public:
     /// Posts across a narrow void, at most.
     static constexpr int kNarrow = 16;
 
-    /// The raster's posts. A raster round the globe has no border in the west and east.
-    struct Shape {
-        int width = 0;
-        int height = 0;
-        bool isGlobal = false;
-        /// What is in none of these parts is beyond the raster's border.
-        std::vector<PixelWindow> parts;
-    };
+    /// What is in none of the layer's rasters is beyond the border; those round the globe have none in the west and
+    /// east. Without coarser rasters only narrow voids are filled.
+    VoidFill(const RasterLayer& layer, Read read)
+        : _layer(layer), _width(layer.grid().columns()), _height(layer.grid().rows()), _read(std::move(read)) {}
 
-    /// `coarser`: empty when there are no coarser rasters; then only narrow voids are filled.
-    VoidFill(Shape shape, Read read, Coarser coarser, bool hasRivals)
-        : _shape(std::move(shape)), _read(std::move(read)), _coarser(std::move(coarser)), _hasRivals(hasRivals) {}
+    /// Before the first void is filled. `hasRivals`: whether some of them are nearly as fine.
+    void setCoarser(Coarser coarser, bool hasRivals) {
+        _coarser = std::move(coarser);
+        _hasRivals = hasRivals;
+    }
 
     /// Requires: the raster has no data at the post. Returns: metres, NaN where it stays missing, and whether they are
     /// a rival's. Throws Failure.
@@ -68,22 +66,23 @@ private:
         std::vector<bool> isRival;
     };
 
-    void takeRivals(Window& window) const;
     [[nodiscard]] Block filled(const PixelWindow& block) const;
     void read(Window& window) const;
-    void findOutside(Window& window) const;
-    void interpolateNarrow(const Window& window, std::vector<float>& result) const;
-    void addDifferences(const Window& window, const std::vector<float>& distances, std::vector<float>& result) const;
+    void findKinds(Window& window) const;
+    /// The heights of a window with its narrow voids interpolated, and its differences from what coarser rasters have.
+    [[nodiscard]] static std::vector<float> interpolated(const Window& window);
+    [[nodiscard]] std::vector<float> differencesOf(const Window& window) const;
     /// The column of a raster round the globe that stands for one beyond its ends.
-    [[nodiscard]] int inRaster(int column) const {
-        return _shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column;
-    }
+    [[nodiscard]] int inRaster(int column) const { return isGlobal() ? ((column % _width) + _width) % _width : column; }
+    [[nodiscard]] bool isGlobal() const { return _layer.grid().isGlobal(); }
     [[nodiscard]] Below belowAt(const Window& window, int x, int y) const;
 
-    Shape _shape;
+    const RasterLayer& _layer;
+    int _width;
+    int _height;
     Read _read;
     Coarser _coarser;
-    bool _hasRivals;
+    bool _hasRivals = false;
     /// By number of the block.
     std::map<int, Block> _blocks;
     std::size_t _held = 0;

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Database.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "ProgramRun.h"
-#include "Ranks.h"
-#include "Settings.h"
+#include "TaskWork.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>
@@ -14,6 +12,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <optional>
 
@@ -46,16 +45,16 @@ void prepareProcess(const Settings& settings) {
 ExitCode run(int argc, char** argv) {
     std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return kSucceeded;
-    const osgbindem::Ranks ranks;
-    if (ranks.count() > 1 && settings->update) {
+    const std::unique_ptr<osgbindem::Ranks> ranks = osgbindem::joinRanks();
+    if (ranks->count() > 1 && settings->update) {
         throw osgAnalyticBin::support::UsageError("--update is the work of one process; run it without mpirun");
     }
-    if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(ranks);
+    if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(*ranks);
     prepareProcess(*settings);
     if (settings->update) {
         osgbindem::updateDatabase(*settings);
     } else {
-        osgbindem::buildDatabase(*settings, ranks);
+        osgbindem::buildDatabase(*settings, *ranks);
     }
     return kSucceeded;
 }
@@ -63,7 +62,7 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool isSpeaker = osgbindem::Ranks::isSpeaker();
+    const bool isSpeaker = osgbindem::isSpeaker();
     if (!isSpeaker) {
         for (std::ostream* stream : {&std::cout, &std::cerr}) stream->setstate(std::ios::failbit);
     }

@@ -13,7 +13,7 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/Material>
 
-#include <Hypsometry.h>
+#include <Relief.h>
 #include <TileNode.h>
 #include <algorithm>
 #include <cmath>
@@ -178,8 +178,7 @@ osg::ref_ptr<osg::Geometry> ProceduralGlobe::mesh(const Posts& posts, const glm:
     const auto add = [&](const glm::dvec3& ecef, int column, int row) {
         vertices->push_back(toOsg(glm::vec3(rounded(ecef, quantum) - originEcef)));
         normals->push_back(toOsg(posts.normal(column, row)));
-        const osgbindem::Rgb colour = osgbindem::hypsometricColour(posts.height(column, row) - kSea * _options.relief);
-        colours->push_back(osg::Vec4ub(colour[0], colour[1], colour[2], 255));
+        colours->push_back(colourAt(hypsometricStops(), posts.height(column, row) - kSea * _options.relief));
     };
     for (int row = 0; row <= cells; ++row)
         for (int column = 0; column <= cells; ++column) add(posts.ecef(column, row), column, row);

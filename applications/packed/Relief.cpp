@@ -75,4 +75,14 @@ double shadeOf(const glm::dvec3& normalLocal, double exaggeration) noexcept {
     return static_cast<double>(std::clamp(shade < 1.0F ? shade : 1.0F + 0.7F * (shade - 1.0F), kDarkest, kBrightest));
 }
 
+const std::vector<TerrainGrid::ColourStop>& hypsometricStops() {
+    // The coast is a step, so that it shows. High ground is bare: snow depends on the latitude too, and comes on top.
+    static const std::vector<TerrainGrid::ColourStop> stops{
+        {-11000.0F, {6, 18, 58}},   {-6000.0F, {14, 44, 104}},  {-3500.0F, {24, 70, 138}}, {-1500.0F, {44, 104, 166}},
+        {-200.0F, {96, 158, 196}},  {-0.5F, {146, 196, 214}},   {0.0F, {74, 120, 66}},     {150.0F, {98, 140, 74}},
+        {500.0F, {148, 164, 92}},   {1000.0F, {184, 172, 112}}, {2000.0F, {172, 140, 94}}, {3200.0F, {146, 116, 86}},
+        {4500.0F, {152, 132, 112}}, {6500.0F, {172, 162, 152}}};
+    return stops;
+}
+
 }  // namespace osgAnalyticBin

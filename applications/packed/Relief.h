@@ -3,9 +3,16 @@
 
 #pragma once
 
+#include "TerrainGrid.h"
+
 #include <glm/vec3.hpp>
 
+#include <vector>
+
 namespace osgAnalyticBin {
+
+/// The colours of heights: blues below 0 m, greens to browns to white above.
+[[nodiscard]] const std::vector<TerrainGrid::ColourStop>& hypsometricStops();
 
 /// Height in metres above which snow stays, about as on earth; below 0 where all land is white.
 [[nodiscard]] double snowLine(double latitudeDeg) noexcept;

@@ -150,21 +150,6 @@ osg::ref_ptr<osg::Vec3Array> normalsOf(const TerrainGrid& grid, const Posts& pos
     return normals;
 }
 
-osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double height) {
-    const double clamped =
-        std::clamp(height, static_cast<double>(stops.front().height), static_cast<double>(stops.back().height));
-    std::size_t i = 1;
-    while (i + 1 < stops.size() && stops[i].height < clamped) ++i;
-    const TerrainGrid::ColourStop& a = stops[i - 1];
-    const TerrainGrid::ColourStop& b = stops[i];
-    const double share = (clamped - a.height) / (static_cast<double>(b.height) - a.height);
-    // half is added and cut off: numbers are positive
-    const auto mixed = [&](std::size_t c) {
-        return static_cast<unsigned char>(a.colour[c] + share * (b.colour[c] - a.colour[c]) + 0.5);
-    };
-    return {mixed(0), mixed(1), mixed(2), 255};
-}
-
 // Snow and shade for the colours of a grid's posts.
 class ReliefPainter {
 public:
@@ -241,6 +226,21 @@ std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid, const Posts& posts) 
 }
 
 }  // namespace
+
+osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double height) {
+    const double clamped =
+        std::clamp(height, static_cast<double>(stops.front().height), static_cast<double>(stops.back().height));
+    std::size_t i = 1;
+    while (i + 1 < stops.size() && stops[i].height < clamped) ++i;
+    const TerrainGrid::ColourStop& a = stops[i - 1];
+    const TerrainGrid::ColourStop& b = stops[i];
+    const double share = (clamped - a.height) / (static_cast<double>(b.height) - a.height);
+    // half is added and cut off: numbers are positive
+    const auto mixed = [&](std::size_t c) {
+        return static_cast<unsigned char>(a.colour[c] + share * (b.colour[c] - a.colour[c]) + 0.5);
+    };
+    return {mixed(0), mixed(1), mixed(2), 255};
+}
 
 std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid) {
     return verticesOf(grid, Posts(grid));

@@ -69,6 +69,9 @@ struct TerrainGrid {
     }
 };
 
+/// The colour of a height.
+[[nodiscard]] osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double height);
+
 /// The vertices of a grid, row by row from the south-west, then the skirts' edge by edge, in ECEF metres.
 /// Guarantee: a post that two grids with the same quantum share is mapped to exactly the same point.
 [[nodiscard]] std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid);

@@ -21,9 +21,9 @@ namespace {
 using support::kDegreesPerRadian;
 
 std::unique_ptr<osgbindem::RasterLayer> layerOf(const std::string& dem) {
-    osgbindem::RasterOptions options;
-    options.path = dem;
-    return std::move(osgbindem::RasterLayer::layersOf({options}).front());
+    osgbindem::Settings settings;
+    settings.dems = {{dem}};
+    return std::move(osgbindem::RasterLayer::elevationOf(settings, nullptr).front());
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* kFile = "/vsimem/fuzz.asc";
 
-void tryRaster(const osgbindem::RasterOptions& options) {
-    osgbindem::DemSource source(std::move(osgbindem::RasterLayer::layersOf({options}).front()));
+void tryRaster(const osgbindem::Settings& settings) {
+    osgbindem::DemSource source(std::move(osgbindem::RasterLayer::elevationOf(settings, nullptr).front()));
     for (const double latitude : {-90.0, -0.5, 0.0, 12.25, 90.0}) {
         for (const double longitude : {-180.0, -0.5, 0.0, 33.5, 180.0}) {
             osgbindem::PositionDeg position{};
@@ -45,12 +45,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CPLSetErrorHandler(CPLQuietErrorHandler);
     std::vector<GByte> bytes(data + 2, data + size);
     VSIFCloseL(VSIFileFromMemBuffer(kFile, bytes.data(), bytes.size(), FALSE));
-    osgbindem::RasterOptions options;
-    options.path = kFile;
-    options.metresPerUnit = std::ldexp(1.0, data[0] % 64 - 32);
-    if (data[1] % 2 == 1) options.nodata = data[1];
+    osgbindem::Settings settings;
+    settings.dems = {{kFile, std::ldexp(1.0, data[0] % 64 - 32)}};
+    if (data[1] % 2 == 1) settings.nodata = data[1];
     try {
-        tryRaster(options);
+        tryRaster(settings);
     } catch (const osgAnalyticBin::support::Failure& failure) {
         osgAnalyticBin::test::require(std::string(failure.what()).find('\n') == std::string::npos);
     }

@@ -3,7 +3,7 @@
 //
 // The module osgbindem_mpi, all that is linked to MPI.
 
-#include "RankLink.h"
+#include "Ranks.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,9 +14,9 @@
 namespace osgbindem {
 namespace {
 
-class MpiRankLink final : public RankLink {
+class MpiRanks final : public Ranks {
 public:
-    MpiRankLink() {
+    MpiRanks() {
         MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
         MPI_Comm_rank(MPI_COMM_WORLD, &_rank);
         MPI_Comm_size(MPI_COMM_WORLD, &_count);
@@ -26,7 +26,7 @@ public:
         MPI_Comm_free(&here);
     }
 
-    ~MpiRankLink() override {
+    ~MpiRanks() override {
         while (failureElsewhere()) {
         }
         MPI_Finalize();
@@ -83,12 +83,12 @@ private:
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) RankLink* osgbindemJoinRanks() {
+extern "C" __attribute__((visibility("default"))) Ranks* osgbindemJoinRanks() {
     int level = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS || level < MPI_THREAD_FUNNELED) {
         return nullptr;
     }
-    return new MpiRankLink;
+    return new MpiRanks;
 }
 
 }  // namespace osgbindem

@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "RasterBands.h"
+
+#include "Failure.h"
+
+#include <cpl_string.h>
+#include <gdal_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
+
+namespace {
+
+// Metres beyond which no terrain of the earth lies, and none of any other body.
+constexpr double kHighestOnEarth = 12000.0;
+constexpr double kHighest = 1e5;
+
+/// How the numbers of a band become metres.
+struct HeightCode {
+    std::optional<double> nodata;
+    double scale = 1.0;
+    double offset = 0.0;
+    /// Numbers beyond are marks for missing heights that the file does not declare.
+    double highest = 0.0;
+    /// 0 where heights are missing; nullptr without one.
+    GDALRasterBand* mask = nullptr;
+};
+
+class HeightBand final : public GDALRasterBand {
+public:
+    HeightBand(GDALDataset& dataset, GDALRasterBand& numbers, const HeightCode& code)
+        : _numbers(numbers), _code(code), _isSingle(numbers.GetRasterDataType() == GDT_Float32) {
+        poDS = &dataset;
+        nBand = 1;
+        eDataType = GDT_Float64;
+        nRasterXSize = numbers.GetXSize();
+        nRasterYSize = numbers.GetYSize();
+        numbers.GetBlockSize(&nBlockXSize, &nBlockYSize);
+    }
+
+    double GetNoDataValue(int* hasNodata) override {
+        if (hasNodata != nullptr) *hasNodata = TRUE;
+        return kMissing;
+    }
+    [[nodiscard]] const RasterMarks& marks() const noexcept { return _marks; }
+
+protected:
+    CPLErr IReadBlock(int column, int row, void* data) override {
+        const int x = column * nBlockXSize;
+        const int y = row * nBlockYSize;
+        const int width = std::min(nBlockXSize, nRasterXSize - x);
+        const int height = std::min(nBlockYSize, nRasterYSize - y);
+        constexpr GSpacing kSize = sizeof(double);
+        return IRasterIO(GF_Read, x, y, width, height, data, width, height, GDT_Float64, kSize, kSize * nBlockXSize,
+                         nullptr);
+    }
+
+    CPLErr IRasterIO(GDALRWFlag flag, int x, int y, int width, int height, void* data, int columns, int rows,
+                     GDALDataType type, GSpacing pixelSpace, GSpacing lineSpace, GDALRasterIOExtraArg* extra) override {
+        const bool isNearest = extra == nullptr || extra->eResampleAlg == GRIORA_NearestNeighbour;
+        const bool isDense = type == GDT_Float64 && pixelSpace == static_cast<GSpacing>(sizeof(double));
+        if (flag != GF_Read || !isNearest || !isDense) {
+            return GDALRasterBand::IRasterIO(flag, x, y, width, height, data, columns, rows, type, pixelSpace,
+                                             lineSpace, extra);
+        }
+        CPLErr error = _numbers.RasterIO(GF_Read, x, y, width, height, data, columns, rows, GDT_Float64, pixelSpace,
+                                         lineSpace, nullptr);
+        std::vector<unsigned char> mask(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 1);
+        if (error == CE_None && _code.mask != nullptr) {
+            error =
+                _code.mask->RasterIO(GF_Read, x, y, width, height, mask.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
+        }
+        for (int row = 0; error == CE_None && row < rows; ++row) {
+            decode(reinterpret_cast<double*>(static_cast<char*>(data) + row * lineSpace),
+                   mask.data() + static_cast<std::ptrdiff_t>(row) * columns, columns);
+        }
+        return error;
+    }
+
+private:
+    static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+    void decode(double* line, const unsigned char* mask, int count) {
+        const float nodata = static_cast<float>(_code.nodata.value_or(0.0));
+        for (int i = 0; i < count; ++i) {
+            const double number = line[i];
+            const bool isMissing =
+                mask[i] == 0 ||
+                (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == nodata)));
+            const double metres = number * _code.scale + _code.offset;
+            const bool isHeight = std::abs(metres) <= _code.highest;
+            line[i] = isMissing || !isHeight ? kMissing : metres;
+            if (isMissing || isHeight || std::isnan(number)) continue;
+            ++_marks.count;
+            _marks.last = number;
+        }
+    }
+
+    GDALRasterBand& _numbers;
+    HeightCode _code;
+    bool _isSingle;
+    RasterMarks _marks;
+};
+
+class HeightDataset final : public GDALDataset {
+public:
+    HeightDataset(GDALRasterBand& numbers, const HeightCode& code, const OGRSpatialReference& horizontal)
+        : _source(*numbers.GetDataset()), _horizontal(horizontal) {
+        // GDAL's mosaics open what has no driver by its name, once more.
+        poDriver = GetGDALDriverManager()->GetDriverByName("VRT");
+        nRasterXSize = numbers.GetXSize();
+        nRasterYSize = numbers.GetYSize();
+        SetBand(1, new HeightBand(*this, numbers, code));
+    }
+
+    CPLErr GetGeoTransform(double* transform) override { return _source.GetGeoTransform(transform); }
+    const OGRSpatialReference* GetSpatialRef() const override { return _horizontal.IsEmpty() ? nullptr : &_horizontal; }
+    int GetGCPCount() override { return _source.GetGCPCount(); }
+    const OGRSpatialReference* GetGCPSpatialRef() const override { return GetSpatialRef(); }
+    const GDAL_GCP* GetGCPs() override { return _source.GetGCPs(); }
+
+private:
+    GDALDataset& _source;
+    OGRSpatialReference _horizontal;
+};
+
+/// What the raster says of its unit; nullopt for units that are no length.
+std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpatialReference* reference) {
+    std::string unit = band.GetUnitType();
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (unit.empty()) {
+        const bool isCompound = reference != nullptr && reference->IsCompound() != 0;
+        return isCompound ? reference->GetTargetLinearUnits("VERT_CS") : 1.0;
+    }
+    struct Unit {
+        const char* start;
+        double metres;
+    };
+    constexpr double kFoot = 0.3048;
+    constexpr double kSurveyFoot = 1200.0 / 3937.0;
+    for (const Unit& known : {Unit{"us survey f", kSurveyFoot}, Unit{"us_survey_f", kSurveyFoot},
+                              Unit{"ftus", kSurveyFoot}, Unit{"us-ft", kSurveyFoot}, Unit{"foot_us", kSurveyFoot},
+                              Unit{"ft", kFoot}, Unit{"f", kFoot}, Unit{"international f", kFoot}, Unit{"km", 1000.0},
+                              Unit{"kilomet", 1000.0}, Unit{"cm", 0.01}, Unit{"centimet", 0.01}, Unit{"dm", 0.1},
+                              Unit{"decimet", 0.1}, Unit{"mm", 0.001}, Unit{"millimet", 0.001}, Unit{"met", 1.0}}) {
+        if (unit.rfind(known.start, 0) == 0) return known.metres;
+    }
+    return unit == "m" ? std::optional(1.0) : std::nullopt;
+}
+
+GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& band) {
+    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
+        GDALRasterBand* other = dataset.GetRasterBand(i);
+        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) return other;
+    }
+    return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0 ? nullptr : band.GetMaskBand();
+}
+
+/// The band with the heights; `notes` get a word when it is one of several.
+GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, std::vector<std::string>& notes) {
+    const int count = file.GetRasterCount();
+    const int number = options.band.value_or(1);
+    if (number > count) {
+        throw Failure("no band " + std::to_string(number) + " in \"" + options.path + "\", which has " +
+                      std::to_string(count) + "; see --band");
+    }
+    GDALRasterBand& band = *file.GetRasterBand(number);
+    int others = 0;
+    for (int i = 1; i <= count; ++i) {
+        if (i != number && file.GetRasterBand(i)->GetColorInterpretation() != GCI_AlphaBand) ++others;
+    }
+    if (others > 0 && !options.band) {
+        const std::string name = band.GetDescription();
+        notes.push_back("band " + std::to_string(number) + " of " + std::to_string(count) +
+                        (name.empty() ? name : ", \"" + name + "\",") + " has the heights; see --band");
+    }
+    return band;
+}
+
+/// Numbers of the bands in the order red, green, blue, alpha, or grey, alpha.
+std::vector<int> colourBands(GDALDataset& file) {
+    const int count = file.GetRasterCount();
+    const auto bandOf = [&](GDALColorInterp colour) {
+        for (int i = 1; i <= count; ++i)
+            if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
+        return 0;
+    };
+    std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    const int alpha = bandOf(GCI_AlphaBand);
+    if (std::count(bands.begin(), bands.end(), 0) > 0) {
+        const int colours = alpha == 0 ? count : alpha - 1;
+        bands = colours >= 3 ? std::vector{1, 2, 3} : std::vector{std::max(1, bandOf(GCI_GrayIndex))};
+    }
+    if (alpha != 0) bands.push_back(alpha);
+    return bands;
+}
+
+/// The number that is shown at full brightness: the end of the usual range that holds the highest one.
+double brightest(GDALDataset& file, const std::vector<int>& bands, const std::string& path) {
+    double highest = 0.0;
+    for (const int number : bands) {
+        std::array<double, 2> range{};
+        GDALRasterBand& band = *file.GetRasterBand(number);
+        if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) highest = std::max(highest, range[1]);
+    }
+    const bool isWhole = GDALDataTypeIsInteger(file.GetRasterBand(bands.front())->GetRasterDataType()) != 0;
+    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
+        if (highest <= end && (end > 1.0 || !isWhole)) return end;
+    }
+    throw Failure("colours of \"" + path + "\" reach " + std::string(CPLSPrintf("%.9g", highest)) +
+                  "; bring them to bytes, for example with gdal_translate -ot Byte -scale");
+}
+
+}  // namespace
+
+GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference& horizontal,
+                      std::vector<std::string>& notes) {
+    GDALRasterBand& band = heightBandOf(file, options, notes);
+    HeightCode code;
+    int hasNodata = 0;
+    const double nodata = band.GetNoDataValue(&hasNodata);
+    if (hasNodata != 0) code.nodata = nodata;
+    if (options.nodata) code.nodata = options.nodata;
+    const OGRSpatialReference* reference = referenceOf(file);
+    const auto declared = declaredMetresPerUnit(band, reference);
+    if (!declared && !options.metresPerUnit) {
+        throw Failure("heights of \"" + options.path + "\" are in \"" + band.GetUnitType() +
+                      "\", which is no length that is known; give --height-unit");
+    }
+    const double metres = options.metresPerUnit.value_or(declared.value_or(1.0));
+    if (!options.metresPerUnit && metres != 1.0) {
+        notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
+    }
+    code.scale = band.GetScale() * metres;
+    code.offset = band.GetOffset() * metres;
+    if (code.offset > 0.5 * horizontal.GetSemiMajor()) {
+        throw Failure("heights of \"" + options.path +
+                      "\" are distances from the middle of the body, with an offset of " +
+                      std::string(CPLSPrintf("%.9g", code.offset)) +
+                      " m; take it away with gdal_edit.py -offset 0, and see --radii");
+    }
+    // A user's factor may exaggerate heights.
+    const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
+    code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
+    code.mask = maskOf(file, band);
+    return GdalDataset(new HeightDataset(band, code, horizontal));
+}
+
+RasterMarks marksOf(GDALDataset& heights) {
+    return static_cast<HeightBand*>(heights.GetRasterBand(1))->marks();
+}
+
+GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
+    CPLStringList words(CSLTokenizeString("-of VRT -ot Byte"));
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
+        words.AddString("-expand");
+        words.AddString("rgba");
+    } else {
+        const std::vector<int> bands = colourBands(file);
+        bool isThere = bands.size() >= static_cast<std::size_t>(std::min(file.GetRasterCount(), 4));
+        for (std::size_t i = 0; i < bands.size(); ++i) {
+            isThere = isThere && bands[i] == static_cast<int>(i) + 1 &&
+                      file.GetRasterBand(bands[i])->GetRasterDataType() == GDT_Byte;
+            words.AddString("-b");
+            words.AddString(std::to_string(bands[i]).c_str());
+        }
+        if (isThere) return nullptr;
+        if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
+            for (const char* word : {"-scale", "0", CPLSPrintf("%.17g", brightest(file, bands, path)), "0", "255"})
+                words.AddString(word);
+        }
+    }
+    GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
+    int usageError = 0;
+    GDALDatasetH translated = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
+    GDALTranslateOptionsFree(options);
+    if (translated == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
+    return GdalDataset(GDALDataset::FromHandle(translated));
+}
+
+}  // namespace osgbindem
