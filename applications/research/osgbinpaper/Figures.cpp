@@ -4,13 +4,14 @@
 #include "Figures.h"
 
 #include "Angles.h"
-#include "Hypsometry.h"
 #include "TextFile.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 
 #include <glm/geometric.hpp>
 
+#include <Relief.h>
+#include <TerrainGrid.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -365,7 +366,8 @@ private:
         const double light = 0.35 + 0.8 * std::max(0.0, glm::dot(normal, glm::normalize(glm::dvec3(-1.0, 1.0, 1.4))));
         const double here = height(0.0, 0.0);
         long rgb = 0;
-        for (const auto channel : osgbindem::hypsometricColour(here == 0.0 ? kWater : here))
+        const osg::Vec4ub colour = colourAt(hypsometricStops(), here == 0.0 ? kWater : here);
+        for (const auto channel : {colour.r(), colour.g(), colour.b()})
             rgb = rgb * 256 + std::lround(std::clamp(light * channel, 0.0, 255.0));
         return rgb;
     }

@@ -107,7 +107,7 @@ def words_of_code(root):
 
 def names_in(text):
     """Paths, functions, and words with capitals or underscores."""
-    paths = re.findall(r"[\w./]+\.(?:h|cpp|inl|py|md)\b|\w+(?:/\w+)+", text)
+    paths = re.findall(r"[\w./]+\.(?:h|cpp|inl|py|md)\b|\w+(?:/[\w-]+)+(?:\.\w+)?", text)
     yield from paths
     for path in paths:
         text = text.replace(path, " ")
