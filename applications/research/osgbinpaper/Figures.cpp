@@ -366,7 +366,7 @@ private:
         const double light = 0.35 + 0.8 * std::max(0.0, glm::dot(normal, glm::normalize(glm::dvec3(-1.0, 1.0, 1.4))));
         const double here = height(0.0, 0.0);
         long rgb = 0;
-        const osg::Vec4ub colour = colourAt(hypsometricStops(), here == 0.0 ? kWater : here);
+        const osg::Vec4ub colour = osgAnalyticBin::colourAt(hypsometricStops(), here == 0.0 ? kWater : here);
         for (const auto channel : {colour.r(), colour.g(), colour.b()})
             rgb = rgb * 256 + std::lround(std::clamp(light * channel, 0.0, 255.0));
         return rgb;
