@@ -199,9 +199,11 @@ private:
         return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
     }
 
-    // Read once, for all tiles above.
+    // Read once, for all tiles above, unless a transform in between has moved since bins were installed.
     const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
-        if (!_surface) _surface = tileSurface(_node, model, _toHere * localToEcef).bin;
+        const osg::Matrixd toEcef = _toHere * localToEcef;
+        if (!_surface || toEcef != _toEcef) _surface = tileSurface(_node, model, toEcef).bin;
+        _toEcef = toEcef;
         return *_surface;
     }
 
@@ -210,6 +212,7 @@ private:
     osg::BoundingSphere _sphere;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
+    osg::Matrixd _toEcef;  // that the surface was read with
     std::optional<DrawnState> _drawn;
 };
 
