@@ -205,6 +205,8 @@ FAULTS = [
           "if (installed && installed->has(InstalledTile::MeshChanged)) return", "if (installed && false) return", NODE, "Evidence.*"),
     Fault("bins do not grow", "src/kit/install/ContentWatch.cpp",
           "        Database::of(*tile).widen(", "        if (false) Database::of(*tile).widen(", SCENES, NAMED),
+    Fault("changes: a leaf that has moved is where it was", "src/kit/install/ContentWatch.cpp",
+          "if (!_surface || toEcef != _toEcef)", "if (!_surface)", SCENES, NAMED),
     Fault("content of files is not looked at when they are merged", "src/kit/install/ContentWatch.cpp",
           "if (watch->_isPending) watch->check(child);", "", NODE, "AddedContent.*"),
     Fault("sets do not notice new content", "src/kit/install/BoxInstaller.cpp", "watch(content, tiles);", "", PLUGIN,
