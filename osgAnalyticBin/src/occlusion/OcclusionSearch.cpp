@@ -63,21 +63,27 @@ public:
         }
     }
 
-    // Looks at the terrain that the near plane may cut. Returns: false where it may be at the eye, or where something
-    // is not known.
+    // Reads the meshes that the near plane may cut. Returns: false where something is not known.
     [[nodiscard]] bool prepare(const std::vector<ShownTile>& shown, NearMeshes& meshes) {
         const auto isPlaced = [](const FoundOcclusion::Tile& tile) { return tile.isPlaced(); };
         if (!std::all_of(_found->tiles.begin(), _found->tiles.end(), isPlaced)) return false;
-        _found->lastClearance = HUGE_VAL;
         if (!(_found->nearReach > 0.0)) return true;
-        const std::optional<NearTerrain> terrain = terrainWithin(1.01 * _found->nearReach, shown, meshes);
-        if (!terrain || !(terrain->top < HUGE_VAL)) return false;
-        _found->lastClearance = terrain->nearest;
-        _buffer.setLowest(terrain->top);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const FoundOcclusion::Tile& tile = _found->tiles[i];
+            if (!isNear(tile)) continue;
+            if (_near.size() == NearMeshes::kMostTiles) return false;
+            _near.push_back({meshes.meshOf(*shown[i].tile, *shown[i].mesh), tile.margin});
+            if (!_near.back().mesh) return false;
+        }
         return true;
     }
 
+    // Returns: null where the near plane may cut terrain at the eye.
     [[nodiscard]] FoundPtr run() {
+        NearTerrain terrain;
+        for (const NearMesh& near : _near) add(*near.mesh, reach(), _found->eyes + near.margin, terrain);
+        if (!(terrain.top < HUGE_VAL)) return nullptr;
+        if (_found->nearReach > 0.0) _buffer.setLowest(terrain.top);
         _quarters.reserve(2 * _candidates.size());
         _order.reserve(2 * _candidates.size());
         for (std::size_t i = 0; i < _candidates.size(); ++i) addQuarters(i);
@@ -88,7 +94,7 @@ public:
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
-        _found->lastClearance = std::min(_found->lastClearance, _buffer.nearestEarth());
+        _found->lastClearance = std::min(terrain.nearest, _buffer.nearestEarth());
         _found->covered = covered();
         _found->findings.clear();
         for (const Candidate& candidate : _candidates) {
@@ -127,12 +133,15 @@ private:
         double nearest = HUGE_VAL;  // metres from the eye, roughly
     };
 
-    // Whether something of a tile may be between the sides of the picture and within `reach` of the eye.
-    [[nodiscard]] bool isWithin(double reach, const FoundOcclusion::Tile& tile) const {
+    // Metres ahead of the eye.
+    [[nodiscard]] double reach() const { return 1.01 * _found->nearReach; }
+
+    // Whether something of a tile may be between the sides of the picture and within reach of the near plane.
+    [[nodiscard]] bool isNear(const FoundOcclusion::Tile& tile) const {
         const GeodeticBin drawn = tile.drawn();
         const core::BinBody body(_ellipsoid, drawn, tile.margin, _frame);
         const core::BinBall ball = body.ball();
-        const double farthest = reach + _found->eyes.y;
+        const double farthest = reach() + _found->eyes.y;
         constexpr double kRounding = 1.0;  // metres, and more
         if (ball.centre.y - ball.radius - kRounding > farthest || _buffer.isBeside(ball)) return false;
         const auto hulls = body.quarters();
@@ -140,28 +149,6 @@ private:
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
             return !outline.isBeside && !(outline.nearest > farthest);
         });
-    }
-
-    // All that is between the sides of the picture and within `reach` of the eye. Returns: nullopt where that is not
-    // known.
-    [[nodiscard]] std::optional<NearTerrain> terrainWithin(double reach, const std::vector<ShownTile>& shown,
-                                                           NearMeshes& meshes) const {
-        const core::Interval& across = _found->span.across;
-        const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
-        NearTerrain terrain;
-        std::size_t tiles = 0;
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            const FoundOcclusion::Tile& tile = _found->tiles[i];
-            if (!isWithin(reach, tile)) continue;
-            if (++tiles > NearMeshes::kMostTiles) return std::nullopt;
-            const glm::dvec3 margin = _found->eyes + tile.margin;
-            const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
-            const core::EcefMesh* const mesh =
-                meshes.trianglesNear(*shown[i].tile, *shown[i].mesh, _found->eye, radius);
-            if (!mesh) return std::nullopt;
-            add(*mesh, reach, margin, terrain);
-        }
-        return terrain;
     }
 
     // Triangles that may be `margin` metres away from their place, along each axis.
@@ -257,6 +244,11 @@ private:
     const core::InverseFrame _frame;
     HorizonBuffer _buffer;
     std::vector<std::shared_ptr<const core::GroundPlates>> _plates;  // held
+    struct NearMesh {
+        std::shared_ptr<const core::EcefMesh> mesh;
+        double margin;
+    };
+    std::vector<NearMesh> _near;  // between the sides of the picture and within reach of the near plane
     std::vector<Candidate> _candidates;
     std::vector<Quarter> _quarters;
     std::vector<std::pair<double, std::size_t>> _order;  // of the quarters, by the distance of the nearest point

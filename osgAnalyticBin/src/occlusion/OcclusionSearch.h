@@ -102,12 +102,12 @@ struct FoundOcclusion {
 using FoundPtr = std::unique_ptr<FoundOcclusion>;
 
 /// Prepares a search for shown tiles that are hidden behind the terrain of others: reads the meshes that the near plane
-/// may cut, and copies all else that the search needs. So it may run in another thread, while tiles come and go.
-/// Requires: all tiles that are shown; in `found` everything is set except the findings.
-/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
-/// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: the search, to be called once; empty where
-/// the near plane may cut into terrain, or where the place of a tile is not known. Cost: of the search, a sort of the
-/// shown tiles, and a few microseconds for each that is not hidden.
+/// may cut, unless they are known, and copies all else that the search needs. So it may run in another thread, while
+/// tiles come and go. Requires: all tiles that are shown; in `found` everything is set except the findings. Guarantee:
+/// every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all of the eyes;
+/// source: doc/theory/occlusion.md, sections 4 and 5. Returns: the search, to be called once; empty where a mesh, or
+/// the place of a tile, is not known. The search returns null where the near plane may cut into terrain. Cost: of the
+/// search, a sort of the shown tiles, and a few microseconds for each that is not hidden.
 [[nodiscard]] std::function<FoundPtr()> prepareSearch(const TerrainHider::View& view,
                                                       const std::vector<ShownTile>& shown, NearMeshes& meshes,
                                                       FoundPtr found);

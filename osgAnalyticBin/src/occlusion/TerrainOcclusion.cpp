@@ -173,6 +173,7 @@ std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& l
         const auto run = prepareSearch(view, shown, nearMeshes, std::move(found));
         if (!run) return std::nullopt;
         found = run();
+        if (!found) return std::nullopt;
         LeftOut left = leftOut(view, lines, shown, *found);
         found->neededReach = left.reach;
         const bool isNearEnough = i > 0 || !view.nearBound || !isMuchNearer(left.reach, *found);
@@ -265,6 +266,7 @@ std::optional<LeftOut> TerrainOcclusion::servedAhead(const View& view, const Lev
                                                      std::optional<PictureSpan>& spanThen) {
     if (!_ahead.valid()) return std::nullopt;
     FoundPtr ahead = _ahead.get();
+    if (!ahead) return std::nullopt;
     ahead->shown.swap(_found->shown);
     const auto span = PictureSpan::of(lines, ahead->eye);
     std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);

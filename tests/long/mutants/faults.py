@@ -356,7 +356,7 @@ FAULTS = [
           "findings[i] == Finding::MeshHidden && tile.isOnlyLevel", "findings[i] == Finding::MeshHidden && (tile.isOnlyLevel || true)", NODE,
           "TerrainOcclusion.*"),
     Fault("occlusion: the near plane cuts nothing away", "src/occlusion/OcclusionSearch.cpp",
-          "_buffer.setLowest(terrain->top);", "", NODE, "TerrainOcclusion.*:ComputedNear.*"),
+          "if (_found->nearReach > 0.0) _buffer.setLowest(terrain.top);", "", NODE, "TerrainOcclusion.*:ComputedNear.*"),
     Fault("near plane: nothing is beside the database", "src/kit/cull/ComputedNear.cpp",
           "near._others = std::max(beside.farthest(), visitor.getCalculatedFarPlane());", "near._others = 0.0;", NODE, "ComputedNear.*"),
     Fault("near plane: transforms beside the database do nothing", "src/kit/cull/ComputedNear.cpp",
