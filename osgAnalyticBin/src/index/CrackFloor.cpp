@@ -33,7 +33,7 @@ double lowestEdge(const TileSurface& surface) {
 
 double shareOf(const Interval& a, const Interval& b) {
     const double width = std::min(a.width(), b.width());
-    return width > 0.0 ? overlap(a, b) / width : 1.0;
+    return width > 0.0 ? a.overlap(b) / width : 1.0;
 }
 
 /// The lowest altitude of two tiles along the edge between them, or of all their edges where that edge is not clear.

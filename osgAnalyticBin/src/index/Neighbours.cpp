@@ -75,8 +75,8 @@ Box boxOf(const TileRect& rect) {
 }
 
 bool isCorner(const TileRect& a, const TileRect& b) {
-    return overlap(a.latitude, b.latitude) <= a.latitudeTolerance + b.latitudeTolerance &&
-           overlap(a.longitude, b.longitude) <= a.longitudeTolerance + b.longitudeTolerance;
+    return a.latitude.overlap(b.latitude) <= a.latitudeTolerance + b.latitudeTolerance &&
+           a.longitude.overlap(b.longitude) <= a.longitudeTolerance + b.longitudeTolerance;
 }
 
 TileRect shifted(TileRect rect) {
@@ -133,13 +133,9 @@ TileRect rectOf(const osgAnalyticBin::TileSurface& surface) {
     return rect;
 }
 
-double overlap(const Interval& a, const Interval& b) {
-    return std::min(a.upper, b.upper) - std::max(a.lower, b.lower);
-}
-
 bool touch(const TileRect& a, const TileRect& b) {
-    return overlap(a.latitude, b.latitude) >= -(a.latitudeTolerance + b.latitudeTolerance) &&
-           overlap(a.longitude, b.longitude) >= -(a.longitudeTolerance + b.longitudeTolerance);
+    return a.latitude.overlap(b.latitude) >= -(a.latitudeTolerance + b.latitudeTolerance) &&
+           a.longitude.overlap(b.longitude) >= -(a.longitudeTolerance + b.longitudeTolerance);
 }
 
 Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles) {

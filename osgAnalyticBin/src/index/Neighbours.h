@@ -25,9 +25,6 @@ struct TileRect {
 /// Requires: the surface is valid.
 [[nodiscard]] TileRect rectOf(const osgAnalyticBin::TileSurface& surface);
 
-/// Radians by which two intervals overlap; negative: they are apart.
-[[nodiscard]] double overlap(const osgAnalyticBin::core::Interval& a, const osgAnalyticBin::core::Interval& b);
-
 /// Whether two rectangles have a point in common, tolerances included.
 [[nodiscard]] bool touch(const TileRect& a, const TileRect& b);
 

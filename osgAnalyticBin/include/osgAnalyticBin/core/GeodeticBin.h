@@ -26,6 +26,10 @@ struct Interval {
     [[nodiscard]] bool contains(const Interval& other) const noexcept {
         return lower <= other.lower && other.upper <= upper;
     }
+    /// How much of it both have in common; negative: how far they are apart. Requires: neither is empty.
+    [[nodiscard]] double overlap(const Interval& other) const noexcept {
+        return (upper < other.upper ? upper : other.upper) - (lower > other.lower ? lower : other.lower);
+    }
     /// Whether both ends are the same numbers.
     [[nodiscard]] bool operator==(const Interval& other) const noexcept {
         return lower == other.lower && upper == other.upper;
