@@ -70,13 +70,6 @@ std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
 // Meshes around the eye may change: what was found is not believed for more views.
 constexpr int kMostUses = 64;
 
-// Whether what was found holds for a view of these tiles.
-bool serves(FoundOcclusion& found, const TerrainHider::View& view, const std::optional<PictureSpan>& span) {
-    return found.uses++ < kMostUses && found.holds(view.eye) && span && found.span.across.contains(span->across) &&
-           span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
-           found.region == regionOf(view) && found.follow(view.planes, view.ellipsoid);
-}
-
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
 void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, const PictureSpan& span,
          const std::optional<PictureSpan>& spanThen) {
@@ -195,7 +188,6 @@ FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const
     found->neededReach = last.neededReach;
     aim(*found, lines, view.eye, *span, spanThen);
     found->tiles = last.shown;
-    found->shown = last.shown;
     found->region = regionOf(view);
     return found;
 }
@@ -209,10 +201,14 @@ bool isNearlyUsedUp(const FoundOcclusion& found, const glm::dvec3& eye, const co
            !found.span.across.contains(then);
 }
 
-// What is hidden by what was found before, if that holds for this view.
+// What is hidden by what was found before, if that holds for this view. `span`: of the view in the picture.
 std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& view, const LevelView& lines,
                               const std::vector<ShownTile>& shown, const std::optional<PictureSpan>& span) {
-    if (!serves(found, view, span)) return std::nullopt;
+    const bool holds = found.uses++ < kMostUses && found.holds(view.eye) && span &&
+                       found.span.across.contains(span->across) && span->drawing <= found.span.drawing &&
+                       span->depthStep <= found.span.depthStep && found.region == regionOf(view) &&
+                       found.follow(view.planes, view.ellipsoid);
+    if (!holds) return std::nullopt;
     LeftOut left = leftOut(view, lines, shown, found);
     if (left.reach > found.nearReach || (view.nearBound && isMuchNearer(left.reach, found))) return std::nullopt;
     return left;
