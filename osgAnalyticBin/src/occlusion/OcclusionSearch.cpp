@@ -45,6 +45,17 @@ struct Quarter {
     HorizonBuffer::Outline outline;  // of all that is drawn with it
 };
 
+// Metres ahead of the eye's place within which the near plane may cut terrain.
+double reachOf(const FoundOcclusion& found) {
+    return 1.01 * found.nearReach;
+}
+
+// Whether nothing in a ball is between the sides of the picture and within reach of the near plane, from all eyes.
+bool isBeyondNear(const HorizonBuffer& picture, const core::BinBall& ball, const FoundOcclusion& found) {
+    constexpr double kRounding = 1.0;  // metres, and more
+    return ball.centre.y - ball.radius - kRounding > reachOf(found) + found.eyes.y || picture.isBeside(ball);
+}
+
 class OcclusionSearch {
 public:
     OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, FoundPtr found)
@@ -81,7 +92,7 @@ public:
     // Returns: null where the near plane may cut terrain at the eye.
     [[nodiscard]] FoundPtr run() {
         NearTerrain terrain;
-        for (const NearMesh& near : _near) add(*near.mesh, reach(), _found->eyes + near.margin, terrain);
+        for (const NearMesh& near : _near) add(*near.mesh, reachOf(*_found), _found->eyes + near.margin, terrain);
         if (!(terrain.top < HUGE_VAL)) return nullptr;
         if (_found->nearReach > 0.0) _buffer.setLowest(terrain.top);
         _quarters.reserve(2 * _candidates.size());
@@ -133,21 +144,15 @@ private:
         double nearest = HUGE_VAL;  // metres from the eye, roughly
     };
 
-    // Metres ahead of the eye.
-    [[nodiscard]] double reach() const { return 1.01 * _found->nearReach; }
-
     // Whether something of a tile may be between the sides of the picture and within reach of the near plane.
     [[nodiscard]] bool isNear(const FoundOcclusion::Tile& tile) const {
         const GeodeticBin drawn = tile.drawn();
         const core::BinBody body(_ellipsoid, drawn, tile.margin, _frame);
-        const core::BinBall ball = body.ball();
-        const double farthest = reach() + _found->eyes.y;
-        constexpr double kRounding = 1.0;  // metres, and more
-        if (ball.centre.y - ball.radius - kRounding > farthest || _buffer.isBeside(ball)) return false;
+        if (isBeyondNear(_buffer, body.ball(), *_found)) return false;
         const auto hulls = body.quarters();
         return std::any_of(hulls.begin(), hulls.end(), [&](const BinHull& hull) {
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
-            return !outline.isBeside && !(outline.nearest > farthest);
+            return !outline.isBeside && !(outline.nearest > reachOf(*_found) + _found->eyes.y);
         });
     }
 
@@ -287,25 +292,14 @@ bool isOutOfView(const FoundOcclusion::Tile& tile, const core::PlaneSet& view, c
 // Whether two tiles have a place in common, apart from their borders.
 bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
     constexpr double kRounding = 1e-12;  // radians, of edges that are the same
-    constexpr double kTurn = 2.0 * glm::pi<double>();
-    const auto overlap = [](const core::Interval& first, const core::Interval& second) {
-        return std::min(first.upper, second.upper) - std::max(first.lower, second.lower);
-    };
-    if (!(overlap(a.latitude(), b.latitude()) > kRounding)) return false;
+    constexpr double kTurn = glm::two_pi<double>();
+    if (!(a.latitude().overlap(b.latitude()) > kRounding)) return false;
     const core::Interval& around = b.longitude();
     const double turns = std::round((a.longitude().middle() - around.middle()) / kTurn) * kTurn;
-    return overlap(a.longitude(), {around.lower + turns, around.upper + turns}) > kRounding;
+    return a.longitude().overlap({around.lower + turns, around.upper + turns}) > kRounding;
 }
 
 }  // namespace
-
-bool FoundOcclusion::isBeyondNear(const Tile& tile, const core::Ellipsoid& ellipsoid) const {
-    if (!tile.isPlaced()) return false;
-    const GeodeticBin drawn = tile.drawn();
-    const core::BinBall ball = core::BinBody(ellipsoid, drawn, tile.margin, eye).ball();
-    constexpr double kRoom = 1.0;  // metres, more than rounding
-    return glm::length(ball.centre) > ball.radius + glm::length(eyes) + nearReach + tile.margin + kRoom;
-}
 
 bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
     if (tiles == shown) return true;
@@ -321,11 +315,16 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         }
         return true;
     };
+    const auto mayCome = [&](const Tile& tile) {
+        if (!tile.isPlaced() || !earth) return false;
+        const GeodeticBin drawn = tile.drawn();
+        return isBeyondNear(*earth, core::BinBody(ellipsoid, drawn, tile.margin, eye).ball(), *this);
+    };
     for (const Tile& tile : shown) {
         const auto from = tiles.begin() + static_cast<std::ptrdiff_t>(next);
         const auto same = static_cast<std::size_t>(std::find(from, tiles.end(), tile) - tiles.begin());
         if (same == tiles.size()) {
-            if (come.size() == kMost || !isBeyondNear(tile, ellipsoid)) return false;
+            if (come.size() == kMost || !mayCome(tile)) return false;
             come.push_back(tile.bin);
             now.push_back(Finding::Seen);
         } else {

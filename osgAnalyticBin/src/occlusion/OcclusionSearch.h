@@ -92,9 +92,6 @@ struct FoundOcclusion {
         return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
     }
 
-    /// Whether all of a tile is farther from all eyes than the near plane reaches.
-    [[nodiscard]] bool isBeyondNear(const Tile& tile, const core::Ellipsoid& ellipsoid) const;
-
     /// Whether the eye has moved too far since the last view for a continuous motion.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
 };

@@ -375,7 +375,7 @@ FAULTS = [
     Fault("occlusion: tiles come where others have left the view", "src/occlusion/OcclusionSearch.cpp",
           "if (areOverOneAnother(bin, left)) return false;", "(void)left;", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: tiles come in front of the near plane", "src/occlusion/OcclusionSearch.cpp",
-          "|| !isBeyondNear(tile, ellipsoid)) return false;", ") return false;", NODE, "TerrainOcclusion.*"),
+          "return isBeyondNear(*earth, core::BinBody(ellipsoid, drawn, tile.margin, eye).ball(), *this);", "return true;", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: what was found ahead serves any view", "src/occlusion/TerrainOcclusion.cpp",
           "left = served(*ahead, view, lines, shown, span);",
           "left = leftOut(view, lines, shown, *ahead);", NODE, "TerrainOcclusion.*"),

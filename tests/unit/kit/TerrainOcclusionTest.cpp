@@ -486,8 +486,10 @@ TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
     FoundOcclusion first;
     first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
     first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
-    first.eye.origin = {7e6, 0.0, 0.0};
+    // from the south, looking north
+    first.eye = {{7e6, 0.0, -5e6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
     first.nearReach = 1000.0;
+    first.earth.emplace(7e6, core::Interval{-1.0, 1.0});
     // numbers: of the first tiles
     const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
                               const std::vector<FoundOcclusion::Tile>& come = {}) {
@@ -527,12 +529,22 @@ TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
     EXPECT_TRUE(outlasts({0, 1}, later, {tile(-2, 1)}));
     // too near for what is known of the near plane
     FoundOcclusion close = first;
-    const osg::Vec3d above = ecefDeg(5.5, 1.5, 2000.0);
-    close.eye.origin = {above.x(), above.y(), above.z()};
+    const auto standAt = [&close](double north, double east) {
+        const osg::Vec3d above = ecefDeg(north, east, 2000.0);
+        close.eye.origin = {above.x(), above.y(), above.z()};
+    };
+    standAt(5.5, 1.5);
     EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
     EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(5, 6)}));
-    close.eyes = {300e3, 0.0, 0.0};
+    close.eyes = {0.0, 300e3, 0.0};
     EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    // the near plane cuts as far ahead on the sides of the picture as in the middle, and nothing beside it
+    close.eyes = {0.0, 0.0, 0.0};
+    close.nearReach = 300e3;
+    standAt(5.5, -1.2);
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    close.earth.emplace(7e6, core::Interval{-0.1, 0.1});
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
 }
 
 // As a camera turns, corners of its view come forward, and so does what the near plane may cut.
