@@ -4,7 +4,6 @@
 #include "MethodSwitchHandler.h"
 
 #include "TextPanel.h"
-#include "ViewTools.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>

@@ -4,7 +4,6 @@
 #include "TrafficHandler.h"
 
 #include "TextPanel.h"
-#include "ViewTools.h"
 
 #include <osgDB/DatabasePager>
 

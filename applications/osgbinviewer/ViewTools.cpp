@@ -3,7 +3,6 @@
 
 #include "ViewTools.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace osgAnalyticBin::viewer {

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
-#include <string>
 #include <vector>
 
 namespace osgAnalyticBin::scale {

@@ -59,8 +59,9 @@ public:
         ViewResult& view = _results.views[_kind];
         ++view.cameras;
         for (const TreeTile& tile : _tree.tiles) view.seenLeaves += tile.isLeaf() && tile.witness ? 1U : 0U;
+        const Frustum frustum(_camera);
         for (std::size_t method = 0; method < kMethods; ++method) {
-            const std::vector<Verdict> verdicts = cull(_tree, Frustum(_camera), static_cast<Method>(method));
+            const std::vector<Verdict> verdicts = cull(_tree, frustum, static_cast<Method>(method));
             for (std::size_t tile = 0; tile < verdicts.size(); ++tile)
                 view.methods[method].add(countsOf(tile, verdicts[tile], _results.worst[method]));
         }

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "ComparisonBins.h"
-
 #include <optional>
 #include <string>
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::paper {

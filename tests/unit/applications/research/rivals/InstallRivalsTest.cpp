@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 #include <support/SyntheticDatabase.h>
