@@ -425,10 +425,8 @@ private:
     std::optional<Failure> uninstall(const Part& part) {
         removeBins(*_with.root);
         removeRequests();
-        // OSG stores the kit's callbacks at the root as plain osg::NodeCallbacks, which stay.
-        if (_wasSaved) return std::nullopt;
         ++_totals.undone;
-        const auto difference = findDifference(*_without.root, *_with.root);
+        const auto difference = findDifference(*_without.root, *_with.root, _wasSaved);
         if (!difference) return std::nullopt;
         return Failure{part.frame, "not undone: " + difference->what, difference->text};
     }
