@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Makes what is published of a version, in the folder release: the source archive, the Debian packages, the pages of the
-# documents, the zip for Windows, and SHA256SUMS. Publishes nothing. What is committed has to be all that there is, and
-# CHANGELOG.md has to give the version's date.
+# documents, the zip for Windows, and SHA256SUMS. It publishes nothing. All files have to be committed, and CHANGELOG.md
+# has to give the version's date.
 #     sh applications/release.sh              # the zip only where an earlier one left its libraries in build/windows
 #     sh applications/release.sh --windows    # the zip, too: 35 minutes more
 #     sh applications/release.sh --source     # the source archive alone

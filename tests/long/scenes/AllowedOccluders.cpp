@@ -4,8 +4,62 @@
 #include "AllowedOccluders.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin::test {
+
+namespace {
+
+double largestScale(const Description& description, const DatabaseSpec& database, int number) {
+    double largest = std::abs(database.verticalScale);
+    for (const Part& part : description.parts) {
+        if (part.kind == PartKind::SetScale && part.tile.database == number)
+            largest = std::max(largest, std::abs(part.amount));
+    }
+    return std::max(largest, 1.0);
+}
+
+// Metres.
+double mostRaised(const Description& description, int number) {
+    double most = 0.0;
+    for (const Part& part : description.parts) {
+        if (part.kind == PartKind::Raise && part.tile.database == number) most = std::max(most, part.amount);
+    }
+    return most;
+}
+
+// Whether bins hold whole skirts in all frames.
+bool holdsAllSkirts(const Description& description, const DatabaseSpec& database) {
+    return database.options.skirts == SkirtUse::All &&
+           std::all_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
+               const bool setsOptions = part.kind == PartKind::SetOptions || part.kind == PartKind::Install;
+               return !setsOptions || part.options.skirts == SkirtUse::All;
+           });
+}
+
+}  // namespace
+
+// doc/limits.md:
+// - "Bins hold those parts of skirts that an eye above the terrain can see through cracks.": eyes below the highest
+//   terrain.
+// - The horizon needs "a near plane that does not cut visible terrain away": lines of sight that begin below it.
+// - "Through a slit between tiles, pixels may show what is far behind", and the proofs assume that skirts close the
+//   cracks (doc/theory/tiles.md, section 4): databases without skirts.
+std::vector<AllowedOccluder> allowedOccluders(const Description& description) {
+    std::vector<AllowedOccluder> result;
+    for (std::size_t i = 0; i < description.databases.size(); ++i) {
+        const DatabaseSpec& database = description.databases[i];
+        if (database.isMap && description.theme != Theme::Hills) continue;
+        const int number = static_cast<int>(i);
+        const double relief = database.relief * largestScale(description, database, number);
+        const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
+        result.push_back({number, relief, !holdsAllSkirts(description, database), fromEverywhere});
+        // raised terrain that the near plane cuts, from eyes above it
+        if (const double raised = mostRaised(description, number); raised > 0.0)
+            result.push_back({number, relief + raised, false, false});
+    }
+    return result;
+}
 
 bool mayHide(const AllowedOccluder& occluder, const Description& description, const MetDatabase& met,
              const Sight& sight) {

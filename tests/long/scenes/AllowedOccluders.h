@@ -8,6 +8,8 @@
 
 #include <osg/Vec3d>
 
+#include <vector>
+
 namespace osgAnalyticBin::test {
 
 /// The line of sight to a point, in eye space: from the near plane.
@@ -26,6 +28,9 @@ struct AllowedOccluder {
     bool fromBelow = false;       ///< from eyes below the highest terrain
     bool fromEverywhere = false;  ///< from all eyes
 };
+
+/// What the documentation excludes of a scene.
+[[nodiscard]] std::vector<AllowedOccluder> allowedOccluders(const Description& description);
 
 /// Whether the occluder, where a traversal met its database, may hide the end of a line of sight.
 [[nodiscard]] bool mayHide(const AllowedOccluder& occluder, const Description& description, const MetDatabase& met,

@@ -4,6 +4,7 @@
 #include "Difference.h"
 
 #include <osg/Group>
+#include <osg/NodeCallback>
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>
 #include <osgTerrain/TerrainTile>
@@ -11,16 +12,20 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <typeinfo>
 #include <utility>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
-std::string namesOf(const osg::Callback* callback) {
+// Of scenes that were saved without plain ones, which only traverse: OSG stores callbacks of the kit as such.
+std::string namesOf(const osg::Callback* callback, bool wereSaved) {
     std::string names;
-    for (; callback; callback = callback->getNestedCallback())
+    for (; callback; callback = callback->getNestedCallback()) {
+        if (wereSaved && typeid(*callback) == typeid(osg::NodeCallback)) continue;
         names += std::string(" ") + callback->libraryName() + "::" + callback->className();
+    }
     return names;
 }
 
@@ -65,6 +70,8 @@ constexpr std::array<const char*, Kinds> kKindNames{"culling active",  "cull cal
 
 class Comparison {
 public:
+    explicit Comparison(bool wereSaved) : _wereSaved(wereSaved) {}
+
     void compare(osg::Node& without, osg::Node& with) {
         if (!_compared.insert({&without, &with}).second) return;
         osg::Node& counterpart = belowAdded(without, with);
@@ -98,9 +105,10 @@ private:
 
     void compareNodes(osg::Node& a, osg::Node& b) {
         note(Culling, a, std::to_string(a.getCullingActive()), std::to_string(b.getCullingActive()));
-        note(CullCallbacks, a, namesOf(a.getCullCallback()), namesOf(b.getCullCallback()));
-        note(UpdateCallbacks, a, namesOf(a.getUpdateCallback()), namesOf(b.getUpdateCallback()));
-        note(EventCallbacks, a, namesOf(a.getEventCallback()), namesOf(b.getEventCallback()));
+        note(CullCallbacks, a, namesOf(a.getCullCallback(), _wereSaved), namesOf(b.getCullCallback(), _wereSaved));
+        note(UpdateCallbacks, a, namesOf(a.getUpdateCallback(), _wereSaved),
+             namesOf(b.getUpdateCallback(), _wereSaved));
+        note(EventCallbacks, a, namesOf(a.getEventCallback(), _wereSaved), namesOf(b.getEventCallback(), _wereSaved));
         note(BoundCallbacks, a, boundCallbackOf(a), boundCallbackOf(b));
         note(UserValues, a, userValuesOf(a), userValuesOf(b));
         note(Expiry, a, expiryOf(a), expiryOf(b));
@@ -113,14 +121,15 @@ private:
                        before + ">, after them <" + after + ">";
     }
 
+    const bool _wereSaved;
     std::array<std::string, Kinds> _texts;
     std::set<std::pair<const osg::Node*, const osg::Node*>> _compared;
 };
 
 }  // namespace
 
-std::optional<Difference> findDifference(osg::Node& without, osg::Node& with) {
-    Comparison comparison;
+std::optional<Difference> findDifference(osg::Node& without, osg::Node& with, bool wereSaved) {
+    Comparison comparison(wereSaved);
     comparison.compare(without, with);
     return comparison.first();
 }

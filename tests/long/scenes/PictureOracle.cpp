@@ -156,8 +156,8 @@ private:
         });
     }
 
-    // doc/limits.md: "On globes of very coarse tiles (...) such slits are kilometres wide, and an eye that looks along
-    // one may see what is below the skirts' lower edges".
+    // doc/limits.md: "Through a slit between tiles, pixels may show what is (...) below the skirts", and "On globes of
+    // very coarse tiles (...) slits are kilometres wide".
     [[nodiscard]] bool isBehindCoarseTiles(const Delivered& lost, const Sight& sight) const {
         constexpr double kLongChord = 0.17;  // radians
         return std::any_of(_without.databases.begin(), _without.databases.end(), [&](const MetDatabase& met) {

@@ -324,12 +324,13 @@ private:
             counts.smallestPixels = 4.0 * view.smallFeaturePixels;
         constexpr int kPlanes = osg::CullSettings::NEAR_PLANE_CULLING | osg::CullSettings::FAR_PLANE_CULLING;
         counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
-        const auto found = findFalseCull(_description, without, with, allowed(), counts);
+        const auto found = findFalseCull(_description, without, with, allowedOccluders(_description), counts);
         return found ? std::optional(failed(*found, frame)) : std::nullopt;
     }
 
     [[nodiscard]] std::optional<Failure> comparePictures(const Delivery& without, const Delivery& with, int frame) {
-        const auto found = findPictureDifference(_description, *_painter, without, with, allowed(), _totals.pictures);
+        const auto found = findPictureDifference(_description, *_painter, without, with, allowedOccluders(_description),
+                                                 _totals.pictures);
         if (!found) return std::nullopt;
         std::ostringstream text;
         text << found->pixels << " pixels differ, that at " << found->column << " " << found->row << " shows <"
@@ -424,10 +425,8 @@ private:
     std::optional<Failure> uninstall(const Part& part) {
         removeBins(*_with.root);
         removeRequests();
-        // doc/limits.md: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
-        if (_wasSaved) return std::nullopt;
         ++_totals.undone;
-        const auto difference = findDifference(*_without.root, *_with.root);
+        const auto difference = findDifference(*_without.root, *_with.root, _wasSaved);
         if (!difference) return std::nullopt;
         return Failure{part.frame, "not undone: " + difference->what, difference->text};
     }
@@ -457,11 +456,6 @@ private:
         paged.addChild(content);
     }
 
-    [[nodiscard]] std::vector<AllowedOccluder> allowed() const;
-    [[nodiscard]] double largestScale(const DatabaseSpec& database, int number) const;
-    [[nodiscard]] double mostRaised(int number) const;
-    [[nodiscard]] bool holdsAllSkirts(const DatabaseSpec& database) const;
-
     const Description& _description;
     const Builder _builder;
     Scene _without, _with;
@@ -471,57 +465,6 @@ private:
     bool _wasSaved = false;
     bool _sharesCallbacks = false;  // a part of the scene is a clone
 };
-
-double Runner::largestScale(const DatabaseSpec& database, int number) const {
-    double largest = std::abs(database.verticalScale);
-    for (const Part& part : _description.parts) {
-        if (part.kind == PartKind::SetScale && part.tile.database == number)
-            largest = std::max(largest, std::abs(part.amount));
-    }
-    return std::max(largest, 1.0);
-}
-
-// Metres.
-double Runner::mostRaised(int number) const {
-    double most = 0.0;
-    for (const Part& part : _description.parts) {
-        if (part.kind == PartKind::Raise && part.tile.database == number) most = std::max(most, part.amount);
-    }
-    return most;
-}
-
-// Whether the application has taken tiles away.
-bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
-    return database.options.skirts == SkirtUse::All &&
-           std::all_of(_description.parts.begin(), _description.parts.end(), [](const Part& part) {
-               const bool setsOptions = part.kind == PartKind::SetOptions || part.kind == PartKind::Install;
-               return !setsOptions || part.options.skirts == SkirtUse::All;
-           });
-}
-
-// What the documentation excludes. doc/limits.md:
-// - "Bins hold those parts of skirts that an eye above the terrain can see through cracks.": eyes below the highest
-//   terrain.
-// - "It needs a near plane that does not cut visible terrain away.": lines of sight that begin below it.
-// - "Through the slit between tiles of different levels, a fraction of a pixel at the picture's border may differ",
-//   and the proofs assume that skirts close the cracks (doc/theory/tiles.md, section 4): databases without skirts.
-// - "Nodes with an absolute reference frame below a tile are culled with it", "With OccluderNodes in the scene, OSG
-//   itself may cull visible nodes beside tiles": the generator makes no such scenes.
-std::vector<AllowedOccluder> Runner::allowed() const {
-    std::vector<AllowedOccluder> result;
-    for (std::size_t i = 0; i < _description.databases.size(); ++i) {
-        const DatabaseSpec& database = _description.databases[i];
-        if (database.isMap && _description.theme != Theme::Hills) continue;
-        const int number = static_cast<int>(i);
-        const double relief = database.relief * largestScale(database, number);
-        const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
-        result.push_back({number, relief, !holdsAllSkirts(database), fromEverywhere});
-        // raised terrain that the near plane cuts, from eyes above it
-        if (const double raised = mostRaised(number); raised > 0.0)
-            result.push_back({number, relief + raised, false, false});
-    }
-    return result;
-}
 
 }  // namespace
 

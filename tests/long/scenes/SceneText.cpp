@@ -22,20 +22,19 @@ namespace {
 using Words = std::vector<const char*>;
 
 // In the order of the enumerators.
-const Words kParts{"switch",         "sequence",      "lod",           "paged",          "proxy",
-                   "group",          "turned",        "instance",      "again",          "moving-tiles",
-                   "caster",         "group-tree",    "hole",          "reversed-faces", "narrow",
-                   "draws-nothing",  "adding",        "objects",       "equal-names",    "culling-off",
-                   "user-cull",      "user-update",   "drawable-bin",  "outline",        "fill",
-                   "state",          "leaves-out",    "pushes-state",  "masks",          "one-shot",
-                   "bound",          "no-bound",      "drawable-cull", "drawable-draw",  "drawable-update",
-                   "drawable-bound", "raise",         "tower",         "vehicle",        "sign",
-                   "unculled",       "traffic",       "camera",        "visitor-leaves", "pick",
-                   "toggle",         "set-options",   "install",       "uninstall",      "set-scale",
-                   "clone",          "save-and-load", "expire",        "move",           "shove"};
-
 const Words& wordsOf(PartKind) {
-    return kParts;
+    static const Words words{"switch",         "sequence",      "lod",           "paged",          "proxy",
+                             "group",          "turned",        "instance",      "again",          "moving-tiles",
+                             "caster",         "group-tree",    "hole",          "reversed-faces", "narrow",
+                             "draws-nothing",  "adding",        "objects",       "equal-names",    "culling-off",
+                             "user-cull",      "user-update",   "drawable-bin",  "outline",        "fill",
+                             "state",          "leaves-out",    "pushes-state",  "masks",          "one-shot",
+                             "bound",          "no-bound",      "drawable-cull", "drawable-draw",  "drawable-update",
+                             "drawable-bound", "raise",         "tower",         "vehicle",        "sign",
+                             "unculled",       "traffic",       "camera",        "visitor-leaves", "pick",
+                             "toggle",         "set-options",   "install",       "uninstall",      "set-scale",
+                             "clone",          "save-and-load", "expire",        "move",           "shove"};
+    return words;
 }
 const Words& wordsOf(Theme) {
     static const Words words{"anything", "models", "scaled", "hills"};
@@ -102,6 +101,7 @@ void read(const std::string& text, double* numbers, std::size_t count) {
         if (!std::getline(in, number, ',')) refuse(text);
         read(number, numbers[i]);
     }
+    if (!in.eof()) refuse(text);
 }
 
 using Sides = std::array<double, 6>;  // left, right, bottom, top, near, far
@@ -163,7 +163,7 @@ void read(const std::string& text, const StateName& state) {
     refuse(text);
 }
 
-/// A view as its camera's position and frustum.
+/// The position and the frustum of a view's camera.
 struct Gaze {
     osg::Vec3d eye, at, up;
     Sides frustum{}, ortho{};
@@ -281,7 +281,7 @@ struct Reading {
     std::map<std::string, std::string> fields;
 };
 
-/// What is not as in a plain one.
+/// The fields in which a thing differs from a plain one.
 template <class Thing>
 std::string line(const std::string& word, Thing thing, Thing plain) {
     Writing own, other;
@@ -335,7 +335,7 @@ void readLine(const std::string& text, NamedScene& scene) {
     }
 }
 
-// The text with each of the values between which bars stand.
+// The text once for each combination of the values that bars separate.
 std::vector<std::string> alternatives(const std::string& text) {
     const std::size_t bar = text.find('|');
     if (bar == std::string::npos) return {text};

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Descriptions as text: a line for each database, part and frame, with what is not as in a plain one.
+// Descriptions as text: a line for each database, part and frame, with the fields that differ from the default. A view
+// starts from the view before it.
 //
 //     database rows=2 levels=1 options=occlusion=on,edges=off
 //     tower hook=own tile=0.0.3.2 frame=2 low=-500 high=30000
 //     view eye=6878137,0,0 at=0,0,0 up=0,0,1 frustum=-0.2,0.2,-0.2,0.2,1,1e8
-//     expect spheres=52 bins=31      or: expect culled=20, or more
+//     expect spheres=52 bins=31      or: expect culled=20 (at least)
 //
-// Values between which a bar stands, as in hook=tile|globe, make a scene each; those of several fields all pairs.
+// Bars separate values, as in hook=tile|globe: each value makes a scene of its own, and several such fields make all
+// combinations.
 
 #pragma once
 
@@ -21,7 +23,7 @@
 
 namespace osgAnalyticBin::test {
 
-/// Drawables that are delivered in all frames of a scene. What is not given may be anything.
+/// Numbers of drawables that all frames of a scene together deliver. A field below 0 is not compared.
 struct Expectation {
     int spheres = -1;  ///< without bins
     int bins = -1;     ///< with them

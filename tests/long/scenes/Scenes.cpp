@@ -150,8 +150,10 @@ std::vector<std::string> sceneFiles(const std::vector<std::string>& paths) {
     namespace fs = std::filesystem;
     std::vector<std::string> files;
     for (const std::string& path : paths) {
-        if (!fs::is_directory(path)) files.push_back(path);
-        if (!fs::is_directory(path)) continue;
+        if (!fs::is_directory(path)) {
+            files.push_back(path);
+            continue;
+        }
         for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
             if (entry.path().extension() == ".scene") files.push_back(entry.path().string());
         }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// One property, two budgets: programs that try random cases on all cores, a short time in CI and as long as one likes.
+// For programs that try random cases on all cores: few of them in ctest, any number by hand.
 
 #pragma once
 
@@ -24,8 +24,8 @@ struct LongRun {
     bool hasFlag = false;  ///< the program's own option was given
 };
 
-/// Reads "--trials N", "--seed S", "--threads T", and an option of the program such as "--ties". Returns: nullopt,
-/// after the usage was printed, for others.
+/// Reads "--trials N", "--seed S", "--threads T", and an option of the program such as "--ties". For any other argument
+/// it prints the usage and returns nullopt.
 [[nodiscard]] std::optional<LongRun> longRunOf(int argc, char** argv, const std::string& flag = "");
 
 /// Calls `check(random, trials, counts)` for chunks of trials. Chunks have streams of their own: the sum does not

@@ -21,13 +21,13 @@ fail() {
 
 makes() { sh applications/release.sh --source >"$scratch/log" 2>&1 || fail "failed"; }
 
-refuses() { # a pattern of the one line that is said
+refuses() { # a pattern of the only line that it prints
     ! sh applications/release.sh --source >"$scratch/log" 2>&1 || fail "does not refuse: $1"
     [ "$(wc -l <"$scratch/log")" = 1 ] || fail "more than one line: $1"
     grep -q "^release.sh: $1" "$scratch/log" || fail "does not say: $1"
 }
 
-heading() { # version and what stands behind it in parentheses
+heading() { # a version, and the text in parentheses after it
     sed "0,/^## .*/s//## $1 ($2)/" "$source/CHANGELOG.md" >CHANGELOG.md
     git commit -q -a -m "$1 $2"
 }
