@@ -4,12 +4,14 @@
 #include "Output.h"
 
 #include "CullMethod.h"
+#include "Interruption.h"
 #include "PathGroups.h"
 #include "Table.h"
 #include "ThreadingName.h"
 
 #include <osg/Version>
 
+#include <algorithm>
 #include <ostream>
 
 namespace osgAnalyticBin::bench {
