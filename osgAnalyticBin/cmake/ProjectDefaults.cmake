@@ -39,7 +39,8 @@ else()
 endif()
 
 # Every target calls this once: C++17 and private warnings. Contraction of a*b+c into fused operations is
-# switched off because it would let verdicts differ between machines.
+# switched off because it would let verdicts differ between machines, and fast-math, which an application may use for
+# all that it builds, because it drops the tests for NaN and infinity.
 function(osganalyticbin_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden
@@ -49,8 +50,8 @@ function(osganalyticbin_defaults target)
     target_compile_definitions(${target} PRIVATE NOMINMAX)
   else()
     target_compile_options(
-      ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
-                        $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
+      ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -fno-fast-math
+                        -ffp-contract=off $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
   endif()
   if(OSGANALYTICBIN_SANITIZERS)
     # What is found ends the program: code that goes on takes up to half longer to compile.

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The mathematics without OpenSceneGraph: is a tile in front of a plane?
+// The mathematics without OpenSceneGraph: is a tile in front of a plane? A box without an end is none.
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <cstdlib>
+#include <limits>
 
 int main() {
     using namespace osgAnalyticBin::core;
@@ -15,5 +16,6 @@ int main() {
     const QuadraticBin bin(mapping, parameterBox(tile));
     const bool right = bin.classify({{1.0, 0.0, 0.0}, -6.0e6}) == Side::Inside &&
                        bin.classify({{1.0, 0.0, 0.0}, -6.5e6}) == Side::Outside;
-    return right ? EXIT_SUCCESS : EXIT_FAILURE;
+    const GeodeticBin endless({0.0, 1.0}, {0.0, std::numeric_limits<double>::infinity()}, {0.0, 1.0});
+    return right && endless.empty() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -109,6 +109,21 @@ TEST(ExactGeodeticBin, HoldsAtHalfAndWholeTurns) {
     }
 }
 
+// The width of such bins is exact, but their middle is rounded.
+TEST(ExactGeodeticBin, HoldsManyTurnsAway) {
+    Random random(115);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const double west = random.sign() * random.logUniform(1.0, 9.9e5);
+        const double latitude = random.uniform(-1.5, 1.5);
+        const GeodeticBin bin({latitude, latitude}, {west, west + random.logUniform(1e-3, 1.0)}, {0.0, 0.0});
+        const Real middle = (Real{bin.longitude().lower} + bin.longitude().upper) / 2;
+        const RealVector point = geodeticToEcef(wgs84(), latitude, middle, 0.0);
+        Plane plane{{static_cast<double>(std::cos(middle)), static_cast<double>(std::sin(middle)), 0.0}, 0.0};
+        plane.offset = std::nextafter(static_cast<double>(-exactDistance(plane, point)), 1e9);
+        ASSERT_NE(ExactGeodeticBin(wgs84(), bin).classify(plane), Side::Outside) << west;
+    }
+}
+
 TEST(ExactGeodeticBin, MarginWidensTheRangeByItself) {
     Random random(104);
     expectMarginToWidenTheRangeByItself(random, exactWithMargin, tolerance);

@@ -131,10 +131,8 @@ void ExactGeodeticBin::setParallel(const GeodeticBin& bin) noexcept {
 // east. Along these it is convex too when the bin is small enough; doc/theory/derivation.md, section 8.
 void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
     const auto ends = cornersOf(_numbers.data());
-    const double spread = _numbers[row::Longitudes] == row::kFullCircle
-                              ? 0.0
-                              : std::max(0.0, _numbers[row::CosEast] * _numbers[row::CosMiddle] +
-                                                  _numbers[row::SinEast] * _numbers[row::SinMiddle]);
+    // of half the width; the middle is rounded
+    const double spread = std::max(0.0, std::cos(0.5 * bin.longitude().width()));
     double largestAxisDistance = 0.0;
     double axisDistance = 0.0;
     double z = 0.0;

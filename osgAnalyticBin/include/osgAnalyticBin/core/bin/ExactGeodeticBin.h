@@ -24,7 +24,7 @@ public:
     [[nodiscard]] static bool holds(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
 
     /// `margin` (metres) is added on all sides: what is drawn may leave the bin by that much.
-    /// Cost: the sines and cosines of five angles.
+    /// Cost: the sines and cosines of six angles.
     ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
     /// Makes the bin from its numbers, in the order of row::Exact and `stride` apart. Its reach() is the one of its
