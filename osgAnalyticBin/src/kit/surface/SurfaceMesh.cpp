@@ -3,6 +3,9 @@
 
 #include "SurfaceMesh.h"
 
+#include "../Classes.h"
+
+#include <osg/ShapeDrawable>
 #include <osg/TriangleFunctor>
 
 #include <algorithm>
@@ -117,7 +120,10 @@ void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vecto
 }
 
 bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
-    if (primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
+    // of several drawings at once, and of those that buffers tell, the indices alone do not say what is drawn
+    const bool isPlain = primitives.getType() != osg::PrimitiveSet::PrimitiveType &&
+                         primitives.getType() <= osg::PrimitiveSet::DrawElementsUIntPrimitiveType;
+    if (!isPlain || primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (isOfPointsOrLines(mode)) {
         addPoints(primitives, triangles);
@@ -162,6 +168,11 @@ bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef
 }
 
 }  // namespace
+
+bool isDrawnByItsVertices(const osg::Drawable& drawable) {
+    return isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) && !drawable.getComputeBoundingBoxCallback() &&
+           !drawable.getDrawCallback();
+}
 
 bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
     mesh.triangles.clear();
