@@ -46,6 +46,8 @@ FAULTS = [
 
     Fault("billboards do not turn", "src/kit/surface/SurfaceReading.cpp",
           "std::optional(reach * (1.0 + kRoomOfTurning))", "std::optional(0.5 * reach)", NODE, "TileSurface.HoldsABillboard*"),
+    Fault("billboards stand still", "src/kit/install/ContentWatch.cpp",
+          "billboard->getPositionList())", "osg::Billboard::PositionList())", NODE, "ContentOfMeshes.*"),
     Fault("only drawables draw", "src/kit/surface/SurfaceWalk.cpp",
           "return visitUnknown(node);", "return;", NODE, "ContentOfMeshes.*:TileSurface.HoldsTheBound*"),
     Fault("drawables have no bound but their vertices", "src/kit/surface/SurfaceReading.cpp",

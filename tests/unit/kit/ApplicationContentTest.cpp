@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Billboard>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/LightSource>
@@ -134,6 +135,22 @@ TEST(ContentOfMeshes, IsDrawnAsItTurnsToTheEye) {
     ASSERT_TRUE(globe.draws(*sign, view));
     installBins(*globe.root);
     EXPECT_TRUE(globe.draws(*sign, view));
+}
+
+TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    billboard->addDrawable(drawableOf(*makeTower({})), osg::Vec3(0.0f, 0.0f, 0.0f));
+    above.mesh.addChild(billboard);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.draws(*billboard, beside(above.place)));
+    billboard->setPosition(0, above.local);
+    billboard->dirtyBound();
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(*billboard, beside(above.place))) << i;
+        update(*globe.root);
+    }
 }
 
 // As FlightGear has it: trees in a level of detail, and a house.
