@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Billboard>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/LightSource>
@@ -74,6 +75,82 @@ TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
     // the tiles are culled by what they hold now
     EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
     EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
+}
+
+// 20 km above the middle of a tile, in the frame of its mesh.
+struct AboveTheMesh {
+    explicit AboveTheMesh(MeshGlobe& globe)
+        : mesh(*globe.tiles[19]->getChild(0)->asGroup()),
+          place(ecefDeg(22.5, -22.5, 20000.0)),
+          local(place * osg::Matrixd::inverse(mesh.getWorldMatrices()[0])) {}
+
+    osg::Group& mesh;
+    osg::Vec3d place, local;
+};
+
+// Draws without drawables, as osgSim::LightPointNode does.
+struct Lights : osg::Node {
+    explicit Lights(const osg::Vec3d& at) : place(at) {}
+    osg::BoundingSphere computeBound() const override { return {place, 50.0f}; }
+    void traverse(osg::NodeVisitor& nv) override { isDrawn = isDrawn || nv.asCullVisitor(); }
+    const osg::Vec3 place;
+    bool isDrawn = false;
+};
+
+TEST(ContentOfMeshes, IsDrawnByANodeOfAnyClass) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<Lights> lights = new Lights(above.local);
+    above.mesh.addChild(lights);
+    installBins(*globe.root);
+    ASSERT_NE(installedOn(*globe.tiles[19]), nullptr);
+    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 20000.0)));
+    EXPECT_FALSE(lights->isDrawn);
+    (void)globe.draws(*globe.root, beside(above.place));
+    EXPECT_TRUE(lights->isDrawn);
+}
+
+// Lies for all visitors but those that draw, for which it stands upright.
+struct Upright : osg::MatrixTransform {
+    bool computeLocalToWorldMatrix(osg::Matrix& matrix, osg::NodeVisitor* nv) const override {
+        const bool isUpright = nv && nv->asCullVisitor();
+        matrix.preMultRotate(osg::Quat(isUpright ? osg::PI_4 : -osg::PI_4, osg::X_AXIS));
+        return true;
+    }
+};
+
+TEST(ContentOfMeshes, IsDrawnAsItTurnsToTheEye) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<osg::MatrixTransform> sign = new Upright;
+    sign->addChild(makeTower(osg::Vec3d(0.0, -15000.0, -15000.0), 30000.0f));
+    osg::Matrixd frame;
+    globe.root->getEllipsoidModel()->computeLocalToWorldTransformFromLatLongHeight(
+        osg::DegreesToRadians(22.5), osg::DegreesToRadians(-22.5), 0.0, frame);
+    const osg::ref_ptr<osg::MatrixTransform> stand =
+        new osg::MatrixTransform(frame * osg::Matrixd::inverse(above.mesh.getWorldMatrices()[0]));
+    stand->addChild(sign);
+    above.mesh.addChild(stand);
+    const CullView view = beside(ecefDeg(22.5, -22.5, 14000.0));
+    ASSERT_TRUE(globe.draws(*sign, view));
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.draws(*sign, view));
+}
+
+TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    billboard->addDrawable(drawableOf(*makeTower({})), osg::Vec3(0.0f, 0.0f, 0.0f));
+    above.mesh.addChild(billboard);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.draws(*billboard, beside(above.place)));
+    billboard->setPosition(0, above.local);
+    billboard->dirtyBound();
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(*billboard, beside(above.place))) << i;
+        update(*globe.root);
+    }
 }
 
 // As FlightGear has it: trees in a level of detail, and a house.

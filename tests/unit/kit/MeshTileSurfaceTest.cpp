@@ -13,6 +13,7 @@
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
 
 #include <algorithm>
@@ -207,9 +208,37 @@ TEST(TileSurface, FollowsFixedTransformsOnly) {
     EXPECT_FALSE(tileSurface(*tile, *kModel, dividing).bin.valid());
     above->setMatrix(affine);
     EXPECT_TRUE(tileSurface(*above, *kModel, frame).bin.valid());
+    struct Turning : osg::MatrixTransform {};
+    const osg::ref_ptr<osg::MatrixTransform> turning = new Turning;
+    turning->setMatrix(affine);
+    turning->addChild(tile);
+    EXPECT_FALSE(tileSurface(*turning, *kModel, frame).bin.valid()) << "a class that may turn to the eye";
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     above->addChild(paged);
     EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+}
+
+TEST(TileSurface, HoldsVerticesInTheFrameOfTheGlobeWhereTheyAreDrawn) {
+    Random random(12);
+    for (int trial = 0; trial < 50; ++trial) {
+        const double south = random.uniform(-80.0, 80.0), west = random.uniform(-180.0, 180.0);
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        for (int i = 0; i < 30; ++i) {
+            const osg::Vec3d place =
+                ecefDeg(south + random.uniform(0.0, 0.01), west + random.uniform(0.0, 0.01), random.uniform(0, 100));
+            vertices->push_back(osg::Vec3(place));
+        }
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 30));
+        const TileSurface surface = surfaceOf(*geometry);
+        const osg::Matrixd view =
+            osg::Matrixd::lookAt(ecefDeg(south, west, 200.0), osg::Vec3d((*vertices)[0]), osg::Vec3d(0, 0, 1));
+        for (const osg::Vec3& v : *vertices) {
+            const osg::Vec3d ecef = drawnByFloats(v, view);
+            EXPECT_LE(metresOutside(surface.bin, {ecef.x(), ecef.y(), ecef.z()}, kEllipsoid), surface.bin.margin());
+        }
+    }
 }
 
 TEST(TileSurface, HoldsLinesPointsAndShapes) {
@@ -231,6 +260,59 @@ TEST(TileSurface, HoldsLinesPointsAndShapes) {
 
     road->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 1, 3));
     EXPECT_FALSE(surfaceOf(*geode).bin.valid()) << "an index beyond the vertices";
+}
+
+osg::BoundingBox boxAbove() {
+    return {6381000.0f, -200.0f, -300.0f, 6382000.0f, 200.0f, 300.0f};
+}
+
+// Draws within its bound, as osgSim::LightPointNode does.
+struct Lights : osg::Node {
+    osg::BoundingSphere computeBound() const override { return osg::BoundingSphere(boxAbove()); }
+};
+struct OwnGeometry : osg::Geometry {
+    osg::BoundingBox computeBoundingBox() const override { return boxAbove(); }
+};
+struct OwnBox : osg::Drawable::ComputeBoundingBoxCallback {
+    osg::BoundingBox computeBound(const osg::Drawable& /*drawable*/) const override { return boxAbove(); }
+};
+struct OwnDrawing : osg::Drawable::DrawCallback {};
+
+osg::ref_ptr<osg::Geometry> makeLine(osg::Geometry* line, const osg::Vec3& from, const osg::Vec3& to) {
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    vertices->push_back(from);
+    vertices->push_back(to);
+    line->setVertexArray(vertices);
+    line->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
+    return line;
+}
+
+TEST(TileSurface, HoldsTheBoundOfWhatItsVerticesDoNotTell) {
+    const osg::Vec3 low(6378137.0f, 0.0f, 0.0f), beside(6378137.0f, 1000.0f, 0.0f);
+    const auto ground = makeLine(new osg::Geometry, low, beside);
+    const auto ofOtherClass = makeLine(new OwnGeometry, low, beside),
+               withBox = makeLine(new osg::Geometry, low, beside),
+               withInitialBound = makeLine(new osg::Geometry, low, beside),
+               drawn = makeLine(new osg::Geometry, boxAbove()._min, boxAbove()._max);
+    withBox->setComputeBoundingBoxCallback(new OwnBox);
+    withInitialBound->setInitialBound(boxAbove());
+    drawn->setDrawCallback(new OwnDrawing);
+    const std::vector<osg::ref_ptr<osg::Node>> contents{new Lights, ofOtherClass, withBox, withInitialBound, drawn};
+    for (std::size_t number = 0; number < contents.size(); ++number) {
+        const osg::ref_ptr<osg::Group> tile = new osg::Group;
+        tile->addChild(ground);
+        const std::uint64_t without = surfaceFingerprint(*tile, osg::Matrixd());
+        tile->addChild(contents[number]);
+        const TileSurface surface = surfaceOf(*tile);
+        ASSERT_TRUE(surface.bin.valid()) << number;
+        for (unsigned int i = 0; i < 8; ++i) {
+            const osg::Vec3d corner(boxAbove().corner(i));
+            const double outside = metresOutside(surface.bin, {corner.x(), corner.y(), corner.z()}, kEllipsoid);
+            EXPECT_LE(outside, surface.bin.margin()) << number;
+        }
+        EXPECT_LE(surface.bin.bin().altitude().upper, 5000.0) << number;
+        EXPECT_NE(surfaceFingerprint(*tile, osg::Matrixd()), without) << number;
+    }
 }
 
 osg::ref_ptr<osg::Billboard> randomBillboard(osg::Billboard::Mode mode, bool isPlain, Random& random) {
@@ -344,6 +426,18 @@ TEST(TileSurface, ReadsNothingBeyondVerticesAndIndices) {
             EXPECT_EQ(isKnownWith(bytes), count >= least) << mode << ' ' << count;
         }
     }
+    // the triangle of the vertices 3 to 5
+    const osg::ref_ptr<osg::DrawElementsIndirectUShort> indirect = new osg::DrawElementsIndirectUShort(GL_TRIANGLES);
+    for (const GLushort i : {GLushort{0}, GLushort{1}, GLushort{2}}) indirect->push_back(i);
+    indirect->setIndirectCommandArray(new osg::DefaultIndirectCommandDrawElements);
+    static_cast<osg::DefaultIndirectCommandDrawElements&>(*indirect->getIndirectCommandArray())
+        .push_back({3, 1, 0, 3, 0});
+    EXPECT_FALSE(isKnownWith(indirect));
+    // the triangles of the vertices 0 to 2 and 3 to 5
+    const osg::ref_ptr<osg::MultiDrawArrays> fans = new osg::MultiDrawArrays(GL_TRIANGLE_FAN);
+    fans->add(0, 3);
+    fans->add(3, 3);
+    EXPECT_FALSE(isKnownWith(fans));
 }
 
 }  // namespace

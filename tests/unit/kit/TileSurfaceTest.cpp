@@ -47,6 +47,23 @@ TEST(TileSurface, HoldsEveryTriangleOfATerrainTile) {
     }
 }
 
+// The technique stores vertices about the middle of the colours.
+TEST(TileSurface, HoldsATerrainTileWhoseColoursStandElsewhere) {
+    Random random(6);
+    const osg::ref_ptr<osgTerrain::ImageLayer> image = new osgTerrain::ImageLayer;
+    const osg::ref_ptr<osgTerrain::Locator> locator = new osgTerrain::Locator;
+    locator->setCoordinateSystemType(osgTerrain::Locator::GEOCENTRIC);
+    locator->setTransformAsExtents(-osg::PI, -osg::PI_2, osg::PI, osg::PI_2);
+    image->setLocator(locator);
+    for (const TileCase& c : tileCases()) {
+        const auto tile = randomTile(c, random);
+        tile->setColorLayer(0, image);
+        const TileSurface surface = surfaceOf(*tile);
+        const auto samples = samplesOf(drawnTriangles(*tile, 1.0f).surface, 1);
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << c.name;
+    }
+}
+
 TEST(TileSurface, IsTightAroundATerrainTile) {
     Random random(2);
     for (const TileCase& c : tileCases()) {
@@ -184,6 +201,20 @@ TEST(TileSurface, IsUnknownWhereTheTileIsBroken) {
     tile = fresh();
     tile->getElevationLayer()->getLocator()->setTransformAsExtents(0, 0, 90, 45);
     EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "degrees";
+    struct OwnLocator : osgTerrain::Locator {
+        explicit OwnLocator(const osgTerrain::Locator& other) : osgTerrain::Locator(other) {}
+    };
+    tile = fresh();
+    tile->getElevationLayer()->setLocator(new OwnLocator(*tile->getElevationLayer()->getLocator()));
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "it may place what it likes";
+    struct OwnLayer : osgTerrain::HeightFieldLayer {
+        explicit OwnLayer(osgTerrain::HeightFieldLayer& other) : osgTerrain::HeightFieldLayer(other.getHeightField()) {
+            setLocator(other.getLocator());
+        }
+    };
+    tile = fresh();
+    tile->setElevationLayer(new OwnLayer(static_cast<osgTerrain::HeightFieldLayer&>(*tile->getElevationLayer())));
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "it may have any heights";
     tile = fresh();
     EXPECT_FALSE(tileSurface(*tile, *kModel, osg::Matrixd::translate(1, 0, 0)).bin.valid());
     const osg::ref_ptr<osg::EllipsoidModel> moon = new osg::EllipsoidModel(1737400.0, 1736000.0);

@@ -18,6 +18,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>
 
+#include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
 #include <osg/Transform>
@@ -89,6 +90,11 @@ void mixSurface(std::uint64_t& hash, const osg::Node& part) {
         mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
         mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
     }
+    if (const auto* const billboard = dynamic_cast<const osg::Billboard*>(&part)) {
+        for (const osg::Vec3& position : billboard->getPositionList()) {
+            for (int axis = 0; axis < 3; ++axis) mixFloat(hash, position[axis]);
+        }
+    }
     const osg::Geometry* const geometry = part.asGeometry();
     const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
     if (!vertices) return;
@@ -104,11 +110,11 @@ void mixSurface(std::uint64_t& hash, const osg::Node& part) {
     }
 }
 
-// Of the bounds of drawables, for vertices that moved without a word. Never 0.
+// Of the bounds of what has no children, for vertices that moved without a word. Never 0.
 std::uint64_t boundsOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
     forEachPart(mesh, [&hash](const osg::Node& part) {
-        if (part.asDrawable()) mixBound(hash, part.getBound());
+        if (!part.asGroup()) mixBound(hash, part.getBound());
     });
     return hash | 1;
 }

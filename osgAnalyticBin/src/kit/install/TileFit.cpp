@@ -162,7 +162,7 @@ TileSurface Fitting::meshSurface() const {
     surface.isEmpty = true;
     for (const osg::ref_ptr<osg::Node>& mesh : _tile.meshes) {
         const TileSurface own = tileSurface(*mesh, _from.ellipsoid, _tile.frame.localToEcef, _shape.sampleRatio,
-                                            _shape.techniqueMargin > 0.0);
+                                            _from.options.techniqueMargin.has_value());
         if (own.isEmpty) continue;
         if (!own.bin.valid()) return {};
         surface.isEmpty = false;

@@ -6,13 +6,11 @@
 #include "../Classes.h"
 #include "../PagedChildren.h"
 #include "../Scoped.h"
+#include "SurfaceMesh.h"
+#include "SurfaceWalk.h"
 
 #include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osg/PositionAttitudeTransform>
-#include <osg/ShapeDrawable>
 #include <osg/Switch>
 
 namespace osgAnalyticBin {
@@ -33,7 +31,7 @@ public:
         if (_depth > kDeepest || !staysInPlace(node)) return add(MeshBox::boundless());
         if (osg::Drawable* const drawable = node.asDrawable()) return add(boxOf(*drawable));
         if (isOneOf<osg::LOD, osg::PagedLOD>(node)) return visitLod(static_cast<osg::LOD&>(node));
-        if (isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform>(node))
+        if (const osg::Transform* const transform = node.asTransform(); transform && hasFixedPlace(*transform))
             return visitTransform(*node.asTransform());
         if (!isOneOf<osg::Group, osg::Geode, osg::Switch>(node)) return add(MeshBox::boundless());
         if (isOneOf<osg::Group>(node)) content.groups.push_back(node.asGroup());
@@ -44,9 +42,7 @@ public:
 
 private:
     static MeshBox boxOf(osg::Drawable& drawable) {
-        const bool isKnown = isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) &&
-                             !drawable.getComputeBoundingBoxCallback() && !drawable.getDrawCallback();
-        if (!isKnown) return MeshBox::boundless();
+        if (!isDrawnByItsVertices(drawable)) return MeshBox::boundless();
         // an initial bound makes it larger, at most
         return MeshBox(drawable.getBoundingBox());
     }
@@ -71,9 +67,6 @@ private:
     }
 
     void visitTransform(osg::Transform& node) {
-        const bool isFixed =
-            node.getReferenceFrame() == osg::Transform::RELATIVE_RF && node.getDataVariance() != osg::Object::DYNAMIC;
-        if (!isFixed) return add(MeshBox::boundless());
         osg::Matrixd matrix = _toFrame.value_or(osg::Matrixd());
         node.computeLocalToWorldMatrix(matrix, nullptr);
         const Scoped toFrame(_toFrame, std::optional(matrix));

@@ -39,6 +39,9 @@ private:
     // it says by itself where it stands
     void visit(osgTerrain::TerrainTile&) override { giveUp(); }
 
+    // it is no ground
+    void visitUnknown(osg::Node&) override {}
+
     void visit(osg::Drawable& drawable) override {
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& mesh = *kept;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainTileSurface.h"
 
@@ -119,12 +120,9 @@ private:
     void visit(osg::Drawable& drawable) override {
         addMatrix(localToEcef());
         const osg::Geometry* geometry = drawable.asGeometry();
-        if (!geometry) {
-            const osg::BoundingBox& box = drawable.getBoundingBox();
-            for (unsigned int i = 0; i < 8; ++i)
-                for (int axis = 0; axis < 3; ++axis) _mixer.add(static_cast<double>(box.corner(i)[axis]));
-            return;
-        }
+        if (!geometry) return addBox(drawable.getBoundingBox());
+        if (!isDrawnByItsVertices(drawable)) _mixer.add(std::uint64_t{1});
+        if (drawable.getInitialBound().valid()) addBox(drawable.getInitialBound());
         addArray(geometry->getVertexArray());
         addArray(geometry->getTexCoordArray(0));
         const osg::Array* const vertices = geometry->getVertexArray();
@@ -136,6 +134,18 @@ private:
         for (const osg::Vec3& position : node.getPositionList())
             for (int axis = 0; axis < 3; ++axis) _mixer.add(static_cast<double>(position[axis]));
         traverse(node);
+    }
+
+    void visitUnknown(osg::Node& node) override {
+        addMatrix(localToEcef());
+        osg::BoundingBox box;
+        box.expandBy(node.getBound());
+        addBox(box);
+    }
+
+    void addBox(const osg::BoundingBox& box) {
+        for (unsigned int i = 0; i < 8; ++i)
+            for (int axis = 0; axis < 3; ++axis) _mixer.add(static_cast<double>(box.corner(i)[axis]));
     }
 
     void addHeights(const osg::HeightField& field) {

@@ -3,9 +3,15 @@
 
 #include "SurfaceMesh.h"
 
+#include "../Classes.h"
+#include "../GlmBridge.h"
+
+#include <glm/geometric.hpp>
+#include <osg/ShapeDrawable>
 #include <osg/TriangleFunctor>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin {
 
@@ -117,7 +123,10 @@ void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vecto
 }
 
 bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
-    if (primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
+    // of several drawings at once, and of those that buffers tell, the indices alone do not say what is drawn
+    const bool isPlain = primitives.getType() != osg::PrimitiveSet::PrimitiveType &&
+                         primitives.getType() <= osg::PrimitiveSet::DrawElementsUIntPrimitiveType;
+    if (!isPlain || primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (isOfPointsOrLines(mode)) {
         addPoints(primitives, triangles);
@@ -163,6 +172,11 @@ bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef
 
 }  // namespace
 
+bool isDrawnByItsVertices(const osg::Drawable& drawable) {
+    return isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) && !drawable.getComputeBoundingBoxCallback() &&
+           !drawable.getDrawCallback();
+}
+
 bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
     mesh.triangles.clear();
     mesh.texCoords = nullptr;
@@ -176,6 +190,16 @@ bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, Su
     functor.toEcef = &localToEcef;
     drawable.accept(functor);
     return true;
+}
+
+double farthestVertex(const SurfaceMesh& mesh, const osg::Matrixd& localToEcef) {
+    const glm::dvec3 origin = toGlm(localToEcef.getTrans());
+    double farthest2 = 0.0;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const glm::dvec3 from = mesh.vertex(i) - origin;
+        farthest2 = std::max(farthest2, glm::dot(from, from));
+    }
+    return std::sqrt(farthest2);
 }
 
 void dropUnusedVertices(SurfaceMesh& mesh) {

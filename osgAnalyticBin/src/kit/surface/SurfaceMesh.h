@@ -22,9 +22,16 @@ struct SurfaceMesh : core::EcefMesh {
     const osg::Vec2* texCoords = nullptr;
 };
 
+/// Whether a drawable draws its vertices and nothing else, as far as its class and its callbacks tell.
+[[nodiscard]] bool isDrawnByItsVertices(const osg::Drawable& drawable);
+
 /// Reads a drawable, whose frame `localToEcef` takes to ECEF, in place of what the mesh held.
-/// Returns: false when what it draws cannot be told: no vertices that can be read, an index beyond them, instances.
+/// Returns: false when what it draws cannot be told: no vertices that can be read, an index beyond them, instances,
+/// primitives of a class that is not known.
 [[nodiscard]] bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh);
+
+/// Metres from the origin of the frame `localToEcef` to the farthest vertex.
+[[nodiscard]] double farthestVertex(const SurfaceMesh& mesh, const osg::Matrixd& localToEcef);
 
 /// Puts any other vertex in place of those that no triangle uses. Requires: a triangle.
 void dropUnusedVertices(SurfaceMesh& mesh);

@@ -13,6 +13,8 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Billboard>
+#include <osg/BoundingBox>
+#include <osg/BoundingSphere>
 
 #include <algorithm>
 #include <array>
@@ -29,21 +31,35 @@ namespace {
 // added for the rounding of rotations in single precision.
 constexpr double kRoomOfTurning = 1e-5;
 
-// The radius of the ball about the origin that holds a drawable; nullopt if its vertices cannot be read.
+// What a node may draw anywhere in, as OSG takes it. Not valid: no bound is known.
+osg::BoundingBoxd boundOf(const osg::Node& node) {
+    osg::BoundingBoxd bound;
+    if (const osg::Drawable* const drawable = node.asDrawable()) {
+        bound.set(drawable->getBoundingBox()._min, drawable->getBoundingBox()._max);
+    } else {
+        bound.expandBy(osg::BoundingSphered(node.getBound().center(), node.getBound().radius()));
+    }
+    return bound;
+}
+
+// Whether its vertices are all that a drawable's bound has to hold. Applications give a bound to what shaders move.
+bool isHeldByItsVertices(const osg::Drawable& drawable) {
+    return isDrawnByItsVertices(drawable) && !drawable.getInitialBound().valid();
+}
+
+// The radius of the ball about the origin that holds a drawable; nullopt if that cannot be told.
 std::optional<double> reachOf(const osg::Node* node, SurfaceMesh& mesh) {
     const osg::Drawable* const drawable = node ? node->asDrawable() : nullptr;
-    if (!drawable || !readMesh(*drawable, osg::Matrixd(), mesh)) return std::nullopt;
+    if (!drawable || !readMesh(*drawable, osg::Matrixd(), mesh) || !isHeldByItsVertices(*drawable)) return std::nullopt;
     double reach = 0.0;
     for (const std::uint32_t i : mesh.triangles) reach = std::max(reach, glm::length(mesh.vertex(i)));
     return std::isfinite(reach) ? std::optional(reach * (1.0 + kRoomOfTurning)) : std::nullopt;
 }
 
-// Adds the cube that holds a ball.
-void addCube(const osg::Vec3d& middle, double radius, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+void addBox(const osg::BoundingBoxd& box, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.size());
     for (unsigned int corner = 0; corner < 8; ++corner) {
-        const auto side = [&](unsigned int axis) { return ((corner >> axis) & 1u) == 0 ? -radius : radius; };
-        const osg::Vec3d v = (middle + osg::Vec3d(side(0), side(1), side(2))) * localToEcef;
+        const osg::Vec3d v = box.corner(corner) * localToEcef;
         mesh.x.push_back(v.x());
         mesh.y.push_back(v.y());
         mesh.z.push_back(v.z());
@@ -83,7 +99,7 @@ std::array<double, kEdges> edgeLows(const core::MeshBounds& bounds, const MeshSk
 
 // The surface of one drawable's mesh, whose skirts are folded up. Requires: at least one triangle, indices
 // within the vertices.
-TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+TileSurface meshSurface(SurfaceMesh& mesh, const osg::Matrixd& localToEcef, const core::Ellipsoid& ellipsoid) {
     const MeshSkirts skirts = foldSkirts(mesh, ellipsoid);
     dropUnusedVertices(mesh);
     // keeps its memory: fresh pages from the system for every tile cost a third of the work
@@ -95,8 +111,9 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (bounds.bin().empty() || !isTerrain) return {};
 
     TileSurface result;
-    const double error =
-        ellipsoid.isPlane() ? drawingErrorInMap(largestCoordinate(bounds.bin())) : drawingError(ellipsoid);
+    const double error = ellipsoid.isPlane()
+                             ? drawingErrorOf(largestCoordinate(bounds.bin()))
+                             : std::max(drawingError(ellipsoid), drawingErrorOf(farthestVertex(mesh, localToEcef)));
     result.bin = AnalyticBin(bounds.bin(), error + bounds.axisError());
     result.bin.setSag(bounds.sag());
     result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
@@ -134,7 +151,17 @@ private:
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
-        if (!mesh.triangles.empty()) unite(meshSurface(mesh, _ellipsoid));
+        if (!mesh.triangles.empty()) unite(meshSurface(mesh, localToEcef(), _ellipsoid));
+        // after the vertices: OSG crashes on indices beyond them
+        if (!isHeldByItsVertices(drawable)) visitUnknown(drawable);
+    }
+
+    void visitUnknown(osg::Node& node) override {
+        const osg::BoundingBoxd bound = boundOf(node);
+        if (!bound.valid()) return giveUp();
+        SurfaceMesh box;
+        addBox(bound, localToEcef(), box);
+        unite(meshSurface(box, localToEcef(), _ellipsoid));
     }
 
     void visitBillboard(osg::Billboard& node) override {
@@ -144,9 +171,10 @@ private:
         for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
             const std::optional<double> reach = reachOf(node.getChild(i), turned);
             if (!reach) return giveUp();
-            addCube(positions[i], *reach, localToEcef(), cubes);
+            const osg::Vec3d middle(positions[i]), toCorner(*reach, *reach, *reach);
+            addBox({middle - toCorner, middle + toCorner}, localToEcef(), cubes);
         }
-        if (!cubes.triangles.empty()) unite(meshSurface(cubes, _ellipsoid));
+        if (!cubes.triangles.empty()) unite(meshSurface(cubes, localToEcef(), _ellipsoid));
     }
 
     void unite(const TileSurface& part) {

@@ -3,6 +3,7 @@
 
 #include "SurfaceWalk.h"
 
+#include "../Classes.h"
 #include "../Inverse.h"
 
 #include <osg/Billboard>
@@ -13,16 +14,11 @@
 
 namespace osgAnalyticBin {
 
-namespace {
-
-// Transforms that stay as they are once loaded; others have no fixed place on the globe.
-bool isFixed(osg::Transform& node) {
-    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
-    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
+bool hasFixedPlace(const osg::Transform& node) {
+    return isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform>(node) &&
+           node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
            node.getDataVariance() != osg::Object::DYNAMIC;
 }
-
-}  // namespace
 
 SurfaceWalk::SurfaceWalk(const osg::Matrixd& localToEcef)
     : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _localToEcef(localToEcef), _isKnown(isAffine(localToEcef)) {
@@ -33,6 +29,7 @@ void SurfaceWalk::apply(osg::Node& node) {
     if (!_isKnown) return;
     // Traversed before it has its Terrain, a tile never finds it afterwards; children it does not draw.
     if (auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) return visit(*tile);
+    if (!node.asGroup() && !isExactly<osg::Node>(node)) return visitUnknown(node);
     traverse(node);
 }
 
@@ -41,6 +38,10 @@ void SurfaceWalk::apply(osg::Billboard& node) {
 }
 
 void SurfaceWalk::visitBillboard(osg::Billboard&) {
+    giveUp();
+}
+
+void SurfaceWalk::visitUnknown(osg::Node&) {
     giveUp();
 }
 
@@ -54,7 +55,7 @@ void SurfaceWalk::apply(osg::PagedLOD&) {
 
 void SurfaceWalk::apply(osg::Transform& node) {
     if (!_isKnown) return;
-    if (!isFixed(node)) return giveUp();
+    if (!hasFixedPlace(node)) return giveUp();
     const osg::Matrixd outer = _localToEcef;
     node.computeLocalToWorldMatrix(_localToEcef, this);
     if (!isAffine(_localToEcef)) giveUp();

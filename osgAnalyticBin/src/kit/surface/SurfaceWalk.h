@@ -9,6 +9,10 @@
 
 namespace osgAnalyticBin {
 
+/// Whether a transform stays as it is once it is loaded; others, and those of an application's class, which may turn to
+/// the eye, have no fixed place on the globe.
+[[nodiscard]] bool hasFixedPlace(const osg::Transform& node);
+
 /// Visits what one tile draws: terrain tiles, which are not traversed, and drawables, with the frame in which they
 /// stand. Masks, ranges and switches are passed over.
 class SurfaceWalk : public osg::NodeVisitor {
@@ -27,6 +31,8 @@ protected:
     virtual void visit(osg::Drawable& drawable) = 0;
     /// Its drawables turn to the eye, each about its own position. By default: giveUp().
     virtual void visitBillboard(osg::Billboard& node);
+    /// It has no children, and may draw anything within its bound, as osgSim::LightPointNode. By default: giveUp().
+    virtual void visitUnknown(osg::Node& node);
 
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
 

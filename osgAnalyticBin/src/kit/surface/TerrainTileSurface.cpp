@@ -3,6 +3,7 @@
 
 #include "TerrainTileSurface.h"
 
+#include "../Classes.h"
 #include "../GlmBridge.h"
 #include "HeightRange.h"
 #include "TerrainLimits.h"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -75,6 +75,7 @@ bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
 }
 
 bool standsOn(const osgTerrain::Locator& locator, const osg::EllipsoidModel& ellipsoid) {
+    if (!isOneOf<osgTerrain::Locator>(locator)) return false;
     const bool isGeocentric = locator.getCoordinateSystemType() == osgTerrain::Locator::GEOCENTRIC;
     if (isMapPlane(ellipsoid)) return !isGeocentric;
     return isGeocentric && locator.getEllipsoidModel() && isSame(*locator.getEllipsoidModel(), ellipsoid);
@@ -96,19 +97,31 @@ std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const os
     return grid;
 }
 
-// Metres from the tile's middle that a vertex is at most.
-double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
+// The middle of the rectangle of a locator, in its units.
+osg::Vec3d middleOf(const osgTerrain::Locator& locator) {
+    return osg::Vec3d(0.5, 0.5, 0.0) * locator.getTransform();
+}
+
+// Metres that a vertex is at most from where the technique stores vertices about: the middle of the tile, or of its
+// colours, where these have a place of their own.
+double reachOf(osgTerrain::TerrainTile& tile, const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
     const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + highestTerrain(ellipsoid);
-    return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
+    const osgTerrain::Layer* const colour = tile.getColorLayer(0);
+    osg::Vec3d away;
+    if (colour && colour->getLocator()) away = middleOf(*colour->getLocator()) - middleOf(*masterLocator(tile));
+    const double radian = ellipsoid.isPlane() ? core::Ellipsoid::kMapUnitsInRadian : 1.0;
+    const double farthest =
+        0.5 * (grid.latitude.width() + grid.longitude.width()) + (std::abs(away.x()) + std::abs(away.y())) / radian;
+    return radius * (ellipsoid.isPlane() ? farthest : std::min(2.0, farthest));
 }
 
 // By which the whole grid and those of descendants may leave their bin in a map.
-double marginInMap(const core::GeodeticGrid& grid, const core::Interval& altitude) {
-    return drawingErrorInMap(largestCoordinate({grid.latitude, grid.longitude, altitude}));
+double marginInMap(const core::GeodeticGrid& grid, const core::Interval& altitude, double reach) {
+    return drawingErrorOf(std::max(reach, largestCoordinate({grid.latitude, grid.longitude, altitude})));
 }
 
-double marginOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
-    return kVertexRounding * reachOf(grid, ellipsoid) + kPlacing * core::earthScale(ellipsoid);
+double marginOf(double reach, const core::Ellipsoid& ellipsoid) {
+    return kVertexRounding * reach + kPlacing * core::earthScale(ellipsoid);
 }
 
 // Edges in the order of TileSurface::edgeLow.
@@ -125,7 +138,7 @@ std::array<double, 4> edgeLows(const HeightRange& heights, const osgTerrain::Loc
 
 bool isDrawnByOsg(const osgTerrain::TerrainTile& tile) {
     const osgTerrain::TerrainTechnique* technique = tile.getTerrainTechnique();
-    return !technique || dynamic_cast<const osgTerrain::GeometryTechnique*>(technique);
+    return isOneOf<osgTerrain::TerrainTile>(tile) && (!technique || isOneOf<osgTerrain::GeometryTechnique>(*technique));
 }
 
 const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile) {
@@ -137,7 +150,8 @@ const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile) {
 
 const osg::HeightField* heightField(osgTerrain::TerrainTile& tile) {
     const auto* layer = dynamic_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer());
-    const osg::HeightField* field = layer ? layer->getHeightField() : nullptr;
+    const osg::HeightField* field =
+        layer && isOneOf<osgTerrain::HeightFieldLayer>(*layer) ? layer->getHeightField() : nullptr;
     if (!field || !field->getFloatArray()) return nullptr;
     const std::size_t posts = std::size_t{field->getNumColumns()} * field->getNumRows();
     return field->getFloatArray()->size() >= posts ? field : nullptr;
@@ -162,8 +176,8 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     }
     if (!isOnTheGlobe(*grid)) return {};
 
-    const double reach = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
-    const core::GeodeticGridBounds bounds(model, *grid, reach);
+    const double highest = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
+    const core::GeodeticGridBounds bounds(model, *grid, highest);
     if (!bounds.isKnown()) return {};
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
@@ -173,7 +187,8 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
-    const double margin = model.isPlane() ? marginInMap(*grid, altitude) : marginOf(*grid, model);
+    const double reach = reachOf(tile, *grid, model);
+    const double margin = model.isPlane() ? marginInMap(*grid, altitude, reach) : marginOf(reach, model);
     surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude), margin);
     surface.bin.setSag(bounds.sag());
     surface.edgeLow = edgeLows(heights, *masterLocator(tile), bounds);
@@ -199,8 +214,7 @@ std::optional<core::GeodeticBin> terrainExtents(osgTerrain::TerrainTile& tile, c
 std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                          const TerrainShape& shape) {
     if (shape.techniqueMargin != 0.0 || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;
-    const auto* technique = tile.getTerrainTechnique();
-    if (technique && typeid(*technique) != typeid(osgTerrain::GeometryTechnique)) return std::nullopt;
+    if (!isDrawnByOsg(tile)) return std::nullopt;
     const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
     if (!grid || !isOnTheGlobe(*grid)) return std::nullopt;
     // rows from the south, columns from the west
@@ -213,7 +227,8 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
     // a skirt of negative height stands up
     if (isBroken || (field && !(field->getSkirtHeight() >= 0.0f))) return std::nullopt;
     const core::Ellipsoid model = toCore(ellipsoid);
-    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(*grid, model), 0.0};
+    const double reach = reachOf(tile, *grid, model);
+    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(reach, model), 0.0};
     if (field) posts.skirt = static_cast<double>(field->getSkirtHeight());
     posts.altitudes.reserve(grid->rows * grid->columns);
     for (unsigned int row = 0; row < grid->rows; ++row) {
@@ -222,9 +237,8 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
             if (layer && !layer->getValidValue(column, row, height)) return std::nullopt;
             // as the technique multiplies
             posts.altitudes.push_back(static_cast<double>(height * static_cast<float>(shape.verticalScale)));
-            // vertices are stored about the tile's middle
-            const double farthest = reachOf(*grid, model) + std::abs(posts.altitudes.back());
-            if (model.isPlane()) posts.margin = std::max(posts.margin, drawingErrorInMap(farthest));
+            const double farthest = reach + std::abs(posts.altitudes.back());
+            if (model.isPlane()) posts.margin = std::max(posts.margin, drawingErrorOf(farthest));
         }
     }
     return posts;

@@ -14,7 +14,7 @@
 
 namespace osgAnalyticBin {
 
-/// Whether the tile's technique is osgTerrain::GeometryTechnique or derived from it, or none yet.
+/// Whether the tile is of OSG's own class, and its technique is osgTerrain::GeometryTechnique, or none yet.
 [[nodiscard]] bool isDrawnByOsg(const osgTerrain::TerrainTile& tile);
 
 /// The surface that osgTerrain::GeometryTechnique would make of a tile whose frame is ECEF.
@@ -42,7 +42,7 @@ struct TerrainPosts {
 /// The locator by which GeometryTechnique places the tile's vertices. Returns: nullptr when there is none.
 [[nodiscard]] const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile);
 
-/// The height field of a tile, complete. Returns: nullptr when the tile has none, or another kind of elevation layer.
+/// The height field of a tile, complete. Returns: nullptr when the tile has none, or another class of elevation layer.
 [[nodiscard]] const osg::HeightField* heightField(osgTerrain::TerrainTile& tile);
 
 }  // namespace osgAnalyticBin

@@ -4,14 +4,13 @@
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "../surface/MapGround.h"
+#include "../surface/SurfaceWalk.h"
 #include "Carrier.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <osg/Drawable>
-#include <osg/MatrixTransform>
-#include <osg/PositionAttitudeTransform>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
@@ -31,13 +30,6 @@ const osg::ref_ptr<const osg::EllipsoidModel>& wgs84() {
 
 bool isTerrainTile(osg::Node& node) {
     return dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
-}
-
-// Transforms that stay as they are once loaded; others have no fixed place on the globe.
-bool hasFixedPlace(osg::Transform& node) {
-    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
-    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
-           node.getDataVariance() != osg::Object::DYNAMIC;
 }
 
 // Whether a subgraph is geometry that stays where it is, without tiles in it.
