@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/LightSource>
-#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 #include <osgUtil/PositionalStateContainer>
 #include <osgUtil/RenderStage>
 
@@ -108,17 +108,19 @@ TEST(Newcomers, ThatWereReadWithoutBinsMayLeaveGaps) {
 TEST(Newcomers, ThatAnEarlierInstallationHasReadMayNeverBeCulled) {
     FiledGlobe globe;
     pageOut(*globe.tile);
-    const osg::ref_ptr<osg::LightSource> light = new osg::LightSource;
+    globe.group->addChild(new osg::LightSource);
+    ASSERT_TRUE(osgDB::writeNodeFile(*globe.group, globe.folder / "group.osgb"));
     const osg::ref_ptr<osg::Node> file = readBelow(*globe.tile);
     installBins(*globe.root);
     update(*globe.root);
-    file->asGroup()->addChild(light);
     (void)file->getBound();
     putBelow(*globe.tile, file);
+    const osg::StateAttribute* const light =
+        dynamic_cast<osg::LightSource&>(*file->asGroup()->getChild(1)).getLight();
     for (int i = 0; i < 3; ++i) {
         (void)globe.draws(*globe.tile, downTo(20, 100.0));
         const auto& lights = globe.visitor->getRenderStage()->getPositionalStateContainer()->getAttrMatrixList();
-        const auto isIt = [&](const auto& at) { return at.first == light->getLight(); };
+        const auto isIt = [&](const auto& at) { return at.first == light; };
         EXPECT_TRUE(std::any_of(lights.begin(), lights.end(), isIt)) << i;
         update(*globe.root);
     }
