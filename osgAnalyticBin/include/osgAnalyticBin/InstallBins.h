@@ -91,7 +91,9 @@ OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOpti
 
 /// Takes bins off a node and all below it, and restores what installers changed: callbacks, expiry times,
 /// the pager's options, and groups that were put above tiles. Call it between frames. Tiles that the
-/// DatabasePager is reading at that time may still arrive with bins, which cull them correctly.
+/// DatabasePager is reading at that time may still arrive with bins, which cull nothing. Where only a part of a
+/// database loses its bins, the rest has no horizon, and nothing is hidden, until installBins() is called for all of
+/// it.
 OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 
 }  // namespace osgAnalyticBin

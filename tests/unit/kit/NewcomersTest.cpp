@@ -19,13 +19,15 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+void refineEverywhere(osg::PagedLOD& tile) {
+    tile.setRange(0, 1e9f, 1e10f);
+    tile.setRange(1, 0.0f, 1e9f);
+}
+
 // Below two tiles there is a level with a leaf in it, which is shown from wherever the eye is.
 struct Neighbours : MeshGlobe {
     explicit Neighbours(bool isInstalled = true) {
-        for (osg::ref_ptr<osg::PagedLOD> tile : {tiles[19], tiles[20]}) {
-            tile->setRange(0, 1e9f, 1e10f);
-            tile->setRange(1, 0.0f, 1e9f);
-        }
+        for (const auto& tile : {tiles[19], tiles[20]}) refineEverywhere(*tile);
         here = levelOf(-45.0);
         there = levelOf(0.0);
         putBelow(*tiles[19], here);
@@ -90,6 +92,7 @@ TEST(Newcomers, AreTilesThatTheApplicationAddsBelowAnother) {
 // As by an application's own pager, or where files were asked for before bins were installed.
 TEST(Newcomers, ThatWereReadWithoutBinsMayLeaveGaps) {
     MeshGlobe globe;
+    refineEverywhere(*globe.tiles[19]);
     installBins(*globe.root);
     update(*globe.root);
     EXPECT_FALSE(globe.drawsAntipode());
@@ -115,8 +118,7 @@ TEST(Newcomers, ThatAnEarlierInstallationHasReadMayNeverBeCulled) {
     update(*globe.root);
     (void)file->getBound();
     putBelow(*globe.tile, file);
-    const osg::StateAttribute* const light =
-        dynamic_cast<osg::LightSource&>(*file->asGroup()->getChild(1)).getLight();
+    const osg::StateAttribute* const light = dynamic_cast<osg::LightSource&>(*file->asGroup()->getChild(1)).getLight();
     for (int i = 0; i < 3; ++i) {
         (void)globe.draws(*globe.tile, downTo(20, 100.0));
         const auto& lights = globe.visitor->getRenderStage()->getPositionalStateContainer()->getAttrMatrixList();
