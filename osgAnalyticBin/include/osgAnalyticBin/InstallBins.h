@@ -89,9 +89,9 @@ OSGANALYTICBIN_EXPORT void removeTile(osg::Node& database, osg::Node& tile);
 /// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
 OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
-/// Takes bins off a node and all below it, and restores what installers changed: callbacks, expiry times,
-/// the pager's options, and groups that were put above tiles. Call it between frames. Tiles that the
-/// DatabasePager is reading at that time may still arrive with bins, which cull them correctly.
+/// Takes bins off a node and all below it, and restores what installers changed: callbacks, expiry times, the pager's
+/// options, and groups that were put above tiles. Call it between frames. Tiles that are being read then may arrive
+/// with bins, which cull nothing. Around a part of a database without bins, nothing is hidden until all has bins again.
 OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -244,6 +244,25 @@ TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsIsNoTileOfAnotherGlobe) {
     expectOneVisitEach();
 }
 
+TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsGetsNewBinsWithItsScene) {
+    _reader->keepsOne = true;
+    const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
+    own->setReadFileCallback(_reader);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
+    tile->setDatabaseOptions(own);
+    root->addChild(tile);
+    for (const Method method : {Method::Quadratic, Method::Exact}) {
+        CullOptions options;
+        options.method = method;
+        installBins(*root, options);
+        const osg::ref_ptr<osg::Node> content =
+            osgDB::readRefNodeFile(_file, dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions()));
+        ASSERT_TRUE(content);
+        EXPECT_EQ(callbackIn(content)->getCullOptions().method, method);
+    }
+}
+
 TEST_F(ObjectCache, ANodeThatIsInASceneWithoutBinsIsLeftAlone) {
     _reader->keepsOne = true;
     const osg::ref_ptr<osg::Group> scene = new osg::Group;

@@ -190,6 +190,23 @@ TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatWereFittedAnewMeanwhil
     EXPECT_NEAR(highOf(*_root), 6000.0, 1.0);
 }
 
+// By other bins than those of the tiles above.
+TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatGotNewBinsMeanwhile) {
+    write(500.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    page();
+    _single = readBelow(*_north);
+    installBins(*_scene, {}, _file);
+    update();
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    putBelow(*_north, _single);
+    (void)_scene->getBound();
+    update();
+    EXPECT_GE(highOf(*_north), 5999.0);
+    EXPECT_GE(highOf(*_root), 5999.0);
+}
+
 // With OSG's own pager: in the frame in which the tile appears its ancestors no longer hide it.
 TEST_F(StaleIndex, APeakThatIsNewIsNeverCulled) {
     write(500.0, 8000.0);

@@ -98,27 +98,34 @@ public:
         return tiles;
     }
 
-    // Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. With a later
-    // Database::generation() it runs again for nodes that are not in the scene; the scene's are updated with it.
-    [[nodiscard]] Outcome installOnce(osg::Node& node, const std::string& place, unsigned int generation,
-                                      const std::function<void()>& install) {
+    // Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. A tile's bin
+    // holds for one Database alone: another may have other corrections, another shape of terrain, or a horizon that the
+    // tile was never counted in. With a later Database::generation() it runs again for nodes that are not in the scene;
+    // the scene's are updated with it.
+    [[nodiscard]] Outcome installOnce(osg::Node& node, Database& database, const std::string& place,
+                                      unsigned int generation, const std::function<void()>& install) {
         const std::lock_guard<std::mutex> lock(_mutex);
         const auto known = _installed.find(&node);
-        if (known != _installed.end() && known->second.node.valid()) {
-            if (known->second.place != place) return Outcome::Elsewhere;
-            if (known->second.generation == generation || node.getNumParents() > 0) return Outcome::Usable;
+        osg::ref_ptr<const Database> owner;
+        const bool isKnown =
+            known != _installed.end() && known->second.node.valid() && known->second.database.lock(owner);
+        // the bins of an installation that is over are replaced
+        if (isKnown && !owner->isRemoved()) {
+            if (owner != &database || known->second.place != place) return Outcome::Elsewhere;
+            if (known->second.generation == generation) return Outcome::Usable;
         }
-        // In a scene already, without bins: a cull traversal may be in it just now. OSG's spheres stay in charge there.
+        // A cull traversal may be in it just now. Without bins, OSG's spheres stay in charge there.
         if (node.getNumParents() > 0) return Outcome::Usable;
         install();
         forgetDeleted();
-        _installed[&node] = {osg::observer_ptr<osg::Node>(&node), place, generation};
+        _installed[&node] = {&node, &database, place, generation};
         return Outcome::Usable;
     }
 
 private:
     struct Installed {
         osg::observer_ptr<osg::Node> node;
+        osg::observer_ptr<const Database> database;
         std::string place;
         unsigned int generation = 0;
     };
@@ -136,13 +143,12 @@ private:
     std::size_t _enough = 64;  // entries at which those of deleted nodes are looked for
 };
 
-// Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
-// corrections, another shape of terrain, or a horizon that the tile was never counted in.
-std::string placeText(const Database& database, const TileFrame& frame) {
+// Where on which globe.
+std::string placeText(const TileFrame& frame) {
     std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
     const osg::EllipsoidModel* ellipsoid = frame.ellipsoid.get();
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
-    return std::to_string(database.number()) + ' ' + numbersToText(numbers);
+    return numbersToText(numbers);
 }
 
 }  // namespace
@@ -219,7 +225,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
         install(*root, known);
         return ReadResult(root.get(), result.status());
     }
-    const auto outcome = SharedTiles::instance().installOnce(*node, placeText(*_database, known.frame), generation,
+    const auto outcome = SharedTiles::instance().installOnce(*node, *_database, placeText(known.frame), generation,
                                                              [&] { install(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
     return unreadable(fileName, "a read callback shares one copy between two places or installations");

@@ -67,9 +67,6 @@ public:
     /// of the original.
     [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
 
-    /// Unique within the process, also over databases that are deleted.
-    [[nodiscard]] unsigned long number() const { return _number; }
-
     [[nodiscard]] CullOptions options() const;
 
     /// Replaces the options. Tiles that were installed with the old ones but are not merged into the scene yet are
@@ -168,9 +165,6 @@ private:
     void makePlates();
     void renewFamilies();
 
-    static inline std::atomic<unsigned long> _count{0};
-
-    const unsigned long _number = ++_count;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
     bool _isCulling = false;

@@ -436,4 +436,9 @@ void detachDatabase(osg::Node& node) {
         takeOffUpdate(node, update);
 }
 
+void removeDatabase(osg::Node& node) {
+    if (Database* const database = attachedDatabase(node)) database->setRemoved();
+    detachDatabase(node);
+}
+
 }  // namespace osgAnalyticBin

@@ -77,4 +77,7 @@ void attachDatabase(osg::Node& node, Database& database, bool isCulling);
 /// Removes all callbacks of databases from the node.
 void detachDatabase(osg::Node& node);
 
+/// The same for good: the database's bins cull nothing any more.
+void removeDatabase(osg::Node& node);
+
 }  // namespace osgAnalyticBin

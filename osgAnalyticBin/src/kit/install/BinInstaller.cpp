@@ -101,6 +101,14 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
            above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
 }
 
+// Nobody knows the terrain of a part that has no bins any more.
+void reportGapAbove(const osg::Node& part) {
+    for (osg::Group* const parent : part.getParents()) {
+        if (Database* const database = attachedDatabase(*parent)) database->report(Finding::Gap);
+        reportGapAbove(*parent);
+    }
+}
+
 // Whether a subgraph that the installer does not search has nodes that look like tiles.
 bool hasTileBelow(osg::Node& subgraph) {
     bool has = false;
@@ -169,7 +177,8 @@ void BinInstaller::placeFamilies() {
 
 // It notices where the application takes the watch of a tile away.
 void BinInstaller::watchFamily(osg::Node& group) {
-    if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group)) ContentWatch::place(group, {});
+    if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group))
+        ContentWatch::place(group, {}, nullptr, nullptr);
 }
 
 bool BinInstaller::installsBins() const {
@@ -187,7 +196,8 @@ void BinInstaller::installAt(osg::Node& root) {
     // these have databases of their own
     const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) || isPhotogrammetrySet(root);
     if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
-    if (!isGlobe && !_keepsDatabases) detachDatabase(root);
+    if (!isGlobe && !_keepsDatabases) removeDatabase(root);
+    if (!isGlobe && !installsBins()) reportGapAbove(root);
     if (_database) _database->setOptions(_options);
     const bool isNamed = !isGlobe && _options.globe;
     if (isNamed) beginNamedGlobe(root);
@@ -240,8 +250,9 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const bool isKept = !isRefit && own;
     _refitted = nullptr;
     if (isKept) own->setOptions(_options);
-    const osg::ref_ptr<const Database> replaced = databaseOf(node);
+    const osg::ref_ptr<Database> replaced = databaseOf(node);
     const bool hasMovedTile = replaced && replaced->has(Finding::MovedTile);
+    if (!isRefit && replaced && replaced != own && replaced->isAttachedTo(node)) replaced->setRemoved();
     if (!isRefit) detachDatabase(node);
     if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
@@ -298,7 +309,7 @@ void BinInstaller::visitOther(osg::Node& node) {
     // some groups compute their bounds without their children
     const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
     if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
-        ContentWatch::place(node, {});
+        ContentWatch::place(node, {}, _parent, _parent);
     } else {
         ContentWatch::remove(node);
     }

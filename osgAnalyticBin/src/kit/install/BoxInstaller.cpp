@@ -142,6 +142,7 @@ public:
             }
         }
         const FileContent all = place(content, below, tiles, file);
+        watch(content, tiles, parent);
         if (all.isMisfit && !tiles.empty()) Database::report(*tiles.front(), Finding::OtherThanIndexed);
         return all;
     }
@@ -186,7 +187,6 @@ private:
         }
         for (std::size_t i = 0; i < tiles.size(); ++i)
             fit(*content.lods[i].node, *tiles[i], fits[i] ? MeshBox((*known)[i].bin) : boxes[i], fits[i]);
-        watch(content, tiles);
         return all;
     }
 
@@ -220,16 +220,18 @@ private:
     }
 
     // What an application adds where bins cull is noticed.
-    void watch(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles) const {
+    void watch(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles, BoxTile* parent) const {
         const auto hasBin = [](const auto& tile) { return tile->bin != BoxTile::Bin::None; };
         if (!_index && std::none_of(tiles.begin(), tiles.end(), hasBin)) return;
-        for (osg::Group* const group : content.groups) ContentWatch::place(*group, {});
-        for (const FoundLod& lod : content.lods) {
+        const auto above = [&](std::optional<std::size_t> lod) { return lod ? tiles[*lod].get() : parent; };
+        for (const auto& [group, lod] : content.groups) ContentWatch::place(*group, {}, above(lod), above(lod));
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const FoundLod& lod = content.lods[i];
             std::vector<osg::ref_ptr<osg::Node>> meshes;
-            for (unsigned int i = 0; i < lod.node->getNumChildren(); ++i) {
-                if (!isPagedChildOf(*lod.node, i)) meshes.emplace_back(lod.node->getChild(i));
+            for (unsigned int child = 0; child < lod.node->getNumChildren(); ++child) {
+                if (!isPagedChildOf(*lod.node, child)) meshes.emplace_back(lod.node->getChild(child));
             }
-            ContentWatch::place(*lod.node, meshes);
+            ContentWatch::place(*lod.node, meshes, above(lod.parent), tiles[i].get());
         }
     }
 
@@ -359,9 +361,8 @@ std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
 }
 
 void removeBoxes(osg::Group& root) {
-    if (Database* const before = attachedDatabase(root)) before->setRemoved();
     takeOffFirst<WithoutOccluders>(root);
-    detachDatabase(root);
+    removeDatabase(root);
     removeBelow(root);
 }
 

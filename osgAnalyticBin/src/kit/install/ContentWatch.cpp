@@ -5,6 +5,7 @@
 
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
+#include "../PagedChildren.h"
 #include "../Spheres.h"
 #include "../cull/CullCallbacks.h"
 #include "../cull/InstalledBin.h"
@@ -12,6 +13,7 @@
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../surface/TerrainTileSurface.h"
+#include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
 
@@ -153,8 +155,9 @@ bool isBelowDatabase(const osg::Node& node) {
 // Content below tiles, as it is passed up from one tile to the next.
 class Content {
 public:
-    Content(osg::Node& node, const osg::BoundingSphere& sphere)
-        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere) {}
+    // `isMerged`: below a database, which expands bins that do not hold it. Otherwise their tiles stay visible.
+    Content(osg::Node& node, const osg::BoundingSphere& sphere, bool isMerged)
+        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere), _isMerged(isMerged) {}
 
     // Goes from the frame inside a transform to the one outside.
     void leave(const osg::Transform& transform) {
@@ -177,6 +180,7 @@ public:
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
+        if (!_isMerged) return tile->doubt(InstalledTile::Outgrown);
         Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
     }
 
@@ -216,6 +220,7 @@ private:
     osg::Node& _node;
     bool _isTerrain;
     osg::BoundingSphere _sphere;
+    bool _isMerged;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
     osg::Matrixd _toEcef;  // that the surface was read with
@@ -262,6 +267,14 @@ void keepUnwatchedVisible(const osg::Node& node) {
     if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 
+// What others have read in the place of a tile's mesh may leave a gap there.
+void doubtLevel(const osg::Node& node, unsigned int child, InstalledTile* tile) {
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    if (!tile || !paged || !isPaged(*paged, child)) return;
+    const InstalledDatabase& database = tile->database();
+    if (!areVouchedFor(Database::of(*tile).options(), *database.ellipsoid())) tile->doubt(InstalledTile::GapBelow);
+}
+
 // Whether OSG culls neither the node nor anything above it, as with light sources and absolute transforms.
 bool isNeverCulled(const osg::Node& node) {
     return !node.getCullingActive() || node.getNumChildrenWithCullingDisabled() > 0;
@@ -271,10 +284,13 @@ bool isNeverCulled(const osg::Node& node) {
 
 ContentWatch::ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop) : BoundWatch(other, copyop) {}
 
-void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted) {
+void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted, InstalledTile* above,
+                         InstalledTile* tile) {
     remove(node);
     const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
     watch->_node = &node;
+    watch->_above = above;
+    watch->_tile = tile;
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     const auto add = [&watch](const osg::Node& mesh) { watch->_fitted.push_back({&mesh, stateOf(mesh), 0}); };
@@ -322,7 +338,7 @@ bool ContentWatch::hasNewContent(const osg::Node& node) {
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        if (!ownWatchOf(child) && !watch->isFitted(child, false)) return true;
+        if (!watch->isWatched(child) && !watch->isFitted(child, false)) return true;
     }
     return false;
 }
@@ -330,6 +346,11 @@ bool ContentWatch::hasNewContent(const osg::Node& node) {
 const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
     const ContentWatch* const watch = node.getNumParents() == 1 ? watchOf(node) : nullptr;
     return watch && watch->_node == &node ? watch : nullptr;
+}
+
+bool ContentWatch::isWatched(const osg::Node& child) const {
+    const ContentWatch* const watch = ownWatchOf(child);
+    return watch && watch->_above == _tile;
 }
 
 // bounds are not computed before OSG does so: it may crash on those of broken meshes
@@ -373,20 +394,23 @@ void ContentWatch::check(const osg::Node& node) const {
         const osg::Node& child = *group->getChild(i);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
-        if (const ContentWatch* const watch = ownWatchOf(child)) {
-            if (watch->_isPending) watch->check(child);
-            _isPending = _isPending || watch->_isPending;
-        } else if (isOwnFrame && isFitted(child, true)) {
+        const ContentWatch* const watch = ownWatchOf(child);
+        if (watch && watch->_isPending) watch->check(child);
+        _isPending = _isPending || (watch && watch->_isPending);
+        if (isWatched(child)) continue;
+        if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
-        } else if ((sphere.valid() || isNeverCulled(child)) && isMergedNow()) {
-            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere));
+            continue;
         }
+        doubtLevel(node, i, _tile);
+        if (sphere.valid() || isNeverCulled(child))
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
     }
     if (group && fitted < _fitted.size() && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
-    if (group || _fitted.empty() || isFitted(node, true) || !isMergedNow()) return;
+    if (group || _fitted.empty() || isFitted(node, true)) return;
     // an osgTerrain tile that has other heights
-    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node)));
-    doubtMeshOf(node, false);
+    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
+    if (isMergedNow()) doubtMeshOf(node, false);
 }
 
 }  // namespace osgAnalyticBin

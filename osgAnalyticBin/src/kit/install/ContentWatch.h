@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../tile/BoundWatch.h"
+#include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/Export.h>
 
@@ -21,7 +22,8 @@ namespace osgAnalyticBin {
 /// The bound of a tile of osgTerrain with a vertical scale, which OSG leaves out of account, is expanded by the tile's
 /// bin, so that OSG's tests of spheres hold what is drawn.
 /// Every tile and every group between tiles has a watch, which checks the node's own children, down to the next node
-/// with a watch. It knows the meshes that the tile's bin was fitted to.
+/// with a watch. It knows the meshes that the tile's bin was fitted to, and below which tile the node was then: what
+/// has come there since, be it from below another tile or from a file that was read for an earlier bin, is new content.
 /// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
 class OSGANALYTICBIN_EXPORT ContentWatch final : public BoundWatch {
 public:
@@ -31,8 +33,10 @@ public:
     META_Object(osgAnalyticBin, ContentWatch)
 
         /// Adds a watch to the node, in front of an existing callback. `fitted`: the children, or the node itself,
-        /// that the node's bin was fitted to.
-        static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted);
+        /// that the node's bin was fitted to. `above`: the tile that the node is below; `tile`: the one that its
+        /// children are below. Null: none.
+        static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted, InstalledTile* above,
+                          InstalledTile* tile);
 
     /// Removes the watch.
     static void remove(osg::Node& node);
@@ -68,6 +72,8 @@ private:
 
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
+    // Whether a child looks after itself, and is below the same tile as when its watch was placed.
+    [[nodiscard]] bool isWatched(const osg::Node& child) const;
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     // Whether the watched node is in the scene. If not, it is looked at again when it is: until then nothing that is
     // found may be acted on.
@@ -78,6 +84,7 @@ private:
 
     const osg::Node* _node = nullptr;  // the watched one
     std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
+    osg::ref_ptr<InstalledTile> _above, _tile;
     std::vector<Fitted> _fitted;
     mutable bool _isPending = false;  // something was found before the file was merged
 };

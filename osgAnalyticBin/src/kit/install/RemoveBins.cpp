@@ -26,8 +26,7 @@ void detachReads(osg::Node& node) {
 }
 
 void detach(osg::Node& node) {
-    if (Database* const database = attachedDatabase(node)) database->setRemoved();
-    detachDatabase(node);
+    removeDatabase(node);
     auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
     BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr;
     if (callback) callback->database()->setRemoved();

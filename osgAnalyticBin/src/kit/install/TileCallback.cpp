@@ -114,8 +114,9 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     callback.setInstalledTile(&record);
     // In front: what is nested runs when the tile is kept.
     putInFront(culled, callback);
-    if (&culled != tile.node) ContentWatch::place(culled, {});
-    ContentWatch::place(*tile.node, tile.meshes);
+    const bool isCarried = &culled != tile.node;
+    if (isCarried) ContentWatch::place(culled, {}, record.parent, &record);
+    ContentWatch::place(*tile.node, tile.meshes, isCarried ? &record : record.parent.get(), &record);
 }
 
 void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {

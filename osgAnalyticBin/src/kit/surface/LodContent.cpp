@@ -34,7 +34,7 @@ public:
         if (const osg::Transform* const transform = node.asTransform(); transform && hasFixedPlace(*transform))
             return visitTransform(*node.asTransform());
         if (!isOneOf<osg::Group, osg::Geode, osg::Switch>(node)) return add(MeshBox::boundless());
-        if (isOneOf<osg::Group>(node)) content.groups.push_back(node.asGroup());
+        if (isOneOf<osg::Group>(node)) content.groups.push_back({node.asGroup(), _lod});
         visitChildren(*node.asGroup());
     }
 

@@ -22,11 +22,17 @@ struct FoundLod {
     MeshBox own;                        ///< vertices of the file that stand below it and below no other LOD
 };
 
+/// A plain group of a file.
+struct FoundGroup {
+    osg::Group* node;
+    std::optional<std::size_t> lod;  ///< number of the LOD above it in the same file
+};
+
 /// What stands in a file of a photogrammetry set, the files paged below it left out.
 struct LodContent {
-    std::vector<FoundLod> lods;       ///< in preorder
-    std::vector<osg::Group*> groups;  ///< plain groups
-    MeshBox beside;                   ///< vertices below no LOD
+    std::vector<FoundLod> lods;  ///< in preorder
+    std::vector<FoundGroup> groups;
+    MeshBox beside;  ///< vertices below no LOD
 
     /// All that stands below each LOD in the file, and what `below` adds to them, one for each LOD.
     [[nodiscard]] std::vector<MeshBox> boxes(const std::vector<MeshBox>& below) const;

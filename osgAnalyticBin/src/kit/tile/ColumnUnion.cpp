@@ -12,15 +12,21 @@ void ColumnUnion::expandBy(const osg::BoundingSphered& column) {
 }
 
 void ColumnUnion::addDoubts(int number) {
+    const std::lock_guard<std::mutex> lock(_connecting);
+    countDoubts(number);
+}
+
+void ColumnUnion::countDoubts(int number) {
     for (ColumnUnion* at = this; at; at = at->_above.get()) at->_doubts.fetch_add(number, std::memory_order_relaxed);
 }
 
 void ColumnUnion::setAbove(ColumnUnion* above) {
+    const std::lock_guard<std::mutex> lock(_connecting);
     const int doubts = _doubts.load(std::memory_order_relaxed);
-    if (_above) _above->addDoubts(-doubts);
+    if (_above) _above->countDoubts(-doubts);
     _above = above;
     if (!above) return;
-    above->addDoubts(doubts);
+    above->countDoubts(doubts);
     above->expandBy(_sphere);
 }
 

@@ -8,6 +8,7 @@
 #include <osg/ref_ptr>
 
 #include <atomic>
+#include <mutex>
 
 namespace osgAnalyticBin {
 
@@ -34,6 +35,10 @@ protected:
     ~ColumnUnion() override;
 
 private:
+    // Requires: the lock.
+    void countDoubts(int number);
+
+    static inline std::mutex _connecting;  // guards what is above, of all unions
     std::atomic<int> _doubts{0};
     osg::BoundingSphered _sphere;
     osg::ref_ptr<ColumnUnion> _above;

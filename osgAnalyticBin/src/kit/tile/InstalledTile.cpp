@@ -3,7 +3,19 @@
 
 #include "InstalledTile.h"
 
+#include <mutex>
+
 namespace osgAnalyticBin {
+
+namespace {
+
+// Guards what tiles know of their families: some are doubted while others are settled, or while families are made.
+[[nodiscard]] std::unique_lock<std::mutex> lockFamilies() {
+    static std::mutex mutex;
+    return std::unique_lock<std::mutex>(mutex);
+}
+
+}  // namespace
 
 InstalledTile::InstalledTile(const InstalledTile& other) : osg::Referenced(other), _database(other._database) {}
 
@@ -11,11 +23,13 @@ InstalledTile::~InstalledTile() = default;
 
 void InstalledTile::doubt(unsigned int reasons) {
     _reasons.fetch_or(reasons, std::memory_order_relaxed);
+    const auto lock = lockFamilies();
     tellFamily();
 }
 
 void InstalledTile::settle(unsigned int reasons) {
     _reasons.fetch_and(~reasons, std::memory_order_relaxed);
+    const auto lock = lockFamilies();
     tellFamily();
 }
 
@@ -48,16 +62,19 @@ void InstalledTile::setCover(const core::MeshCover& cover) {
 
 void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {
     leaveFamily();
+    const auto lock = lockFamilies();
     _block = &block;
     _slot = slot;
 }
 
 void InstalledTile::leaveFamily() {
     emptySlot();
+    const auto lock = lockFamilies();
     _block = nullptr;
 }
 
 void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins) {
+    const auto lock = lockFamilies();
     if (!_block) return;
     _block->set(_slot, tile, bins);
     _isSlotFilled = true;
@@ -65,6 +82,7 @@ void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins&
 }
 
 void InstalledTile::emptySlot() {
+    const auto lock = lockFamilies();
     _isSlotFilled = false;
     tellFamily();
 }

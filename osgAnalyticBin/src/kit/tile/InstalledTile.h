@@ -163,6 +163,7 @@ protected:
     ~InstalledTile() override;
 
 private:
+    // Requires: the lock.
     void tellFamily();
 
     const osg::ref_ptr<InstalledDatabase> _database;
