@@ -301,7 +301,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
             side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided);
         return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
     };
-    return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
+    return isCulledByBin(node, cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              const core::PlaneMask before = undecided;
                              const Verdict verdict = _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
