@@ -320,12 +320,12 @@ bool AnalyticBinCullCallback::isSphereInView(const osg::Node& node, osg::CullSta
            !isSphereCulled(cullStack.getCurrentCullingSet(), undecided, node.getBound());
 }
 
-// Whether it obeys depth, with all that is below it, and by the states from the database down to it.
+// Whether it obeys depth, with all that is below it, and by the states down to it, from the database if there is one.
 bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const {
-    const StateRules rules{_setup->options.plainShaders};
+    const StateRules rules = view ? view->rules : StateRules::of(nv, _setup->options.plainShaders);
     const bool obeys = !_installed || !_installed->has(InstalledTile::IgnoresDepth);
     return obeys && drawnStateOf(node, rules).obeysDepth &&
-           (!view || drawnStateAbove(nv, view->rules, view->states).obeysDepth);
+           drawnStateAbove(nv, rules, view ? view->states : nullptr).obeysDepth;
 }
 
 // By what the tile is hidden; nullopt: by nothing. The states are asked last: that takes longest.
