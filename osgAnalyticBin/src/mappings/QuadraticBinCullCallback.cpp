@@ -30,12 +30,12 @@ void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv)
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (!_bin) return false;
     core::Side side = core::Side::Straddling;
-    const bool culled =
-        isOutsideOrSmall(cullStack, _sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-            core::PlaneSet planes;
-            for (const osg::Plane& plane : frustum.getPlaneList()) planes.push_back(toCore(plane));
-            return side = core::classify(*_bin, planes, undecided);
-        });
+    const auto test = [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+        core::PlaneSet planes;
+        for (const osg::Plane& plane : frustum.getPlaneList()) planes.push_back(toCore(plane));
+        return side = core::classify(*_bin, planes, undecided);
+    };
+    const bool culled = isOutside(cullStack, test) || isSmall(cullStack.getCurrentCullingSet(), _sphere);
     if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
         BinStatistics::of(nv).count(culled ? core::Side::Outside : side, nv.getTraversalNumber());
     }

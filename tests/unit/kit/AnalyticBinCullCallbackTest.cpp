@@ -310,6 +310,9 @@ TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
+    // they may cull in two threads: nothing is put into what OSG has them share
+    EXPECT_NE(b->getUserDataContainer(), a->getUserDataContainer());
+    EXPECT_EQ(a->getUserDataContainer()->getNumUserObjects(), 1u);
 }
 
 // Counts without a set: several threads may write to it.

@@ -5,6 +5,7 @@
 // is left when bins are taken off. Content: ApplicationContentTest.cpp. States of all kinds: tests/scenes.
 
 #include "ApplicationGlobe.h"
+#include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -42,13 +43,26 @@ TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
+// So may a camera of which the picture is mirrored, as that of a driver's mirror.
+TEST(SeeThroughTerrain, HidesNothingWhereAMirroredPictureShowsItsBack) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    CullView view = MeshGlobe::fromAbove();
+    EXPECT_FALSE(globe.draws(*globe.tiles[15], view));
+    view.projection.postMultScale(osg::Vec3d(-1.0, 1.0, 1.0));
+    EXPECT_TRUE(globe.draws(*globe.tiles[15], view));
+    globe.root->getOrCreateStateSet()->setAttribute(new osg::FrontFace(osg::FrontFace::CLOCKWISE));
+    EXPECT_FALSE(globe.draws(*globe.tiles[15], view));
+}
+
 // Programs that compare pictures draw in the order of the traversal.
 TEST(SeeThroughTerrain, IsNotWhatAnyBinOfOsgHolds) {
-    for (const char* const name : {"RenderBin", "StateSortedBin", "DepthSortedBin", "TraversalOrderBin"}) {
+    for (const std::string name : {"RenderBin", "StateSortedBin", "DepthSortedBin", "TraversalOrderBin"}) {
         MeshGlobe globe;
         globe.root->getOrCreateStateSet()->setRenderBinDetails(0, name);
         installBins(*globe.root);
-        EXPECT_FALSE(globe.drawsAntipode()) << name;
+        // OSG draws what it sorts by depth with an alpha test
+        EXPECT_EQ(globe.drawsAntipode(), name == "DepthSortedBin") << name;
         globe.root->getStateSet()->setRenderBinDetails(0, "BinOfTheApplication");
         EXPECT_TRUE(globe.drawsAntipode());
         globe.root->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
@@ -201,6 +215,24 @@ TEST(HoledGlobe, IsSeenThroughWhereTheNearPlaneCutsItOpen) {
     for (const auto& [near, isSeen] : {std::pair(1e5, false), {8e5, true}, {2e6, true}}) {
         view.projection = osg::Matrixd::perspective(60.0, 1.0, near, 1e8);
         EXPECT_EQ(globe.draws(*globe.tiles[15], view), isSeen) << near;
+    }
+}
+
+// By the plane that the application has set, though the one that OSG computes would leave them.
+TEST(HoledGlobe, IsSeenThroughWhereTilesAreCulledByTheNearPlane) {
+    const osg::Vec3d above = ecefDeg(0.1, 1.1, 20000.0);
+    CullView view = CullView::lookAt(above, {0, 0, 0}, {0, 0, 1}, 5.0);
+    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    for (const double near : {1.0, 1e6}) {
+        RidgeGlobe globe;
+        installBins(*globe.root);
+        view.projection = osg::Matrixd::perspective(5.0, 1.0, near, 1e8);
+        view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
+        EXPECT_EQ(globe.draws(*globe.row[5], view), near < 1e4);
+        EXPECT_EQ(globe.draws(*globe.tiles[8], view), near > 1e4);
+        view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
+        EXPECT_TRUE(globe.draws(*globe.row[5], view));
+        EXPECT_FALSE(globe.draws(*globe.tiles[8], view));
     }
 }
 

@@ -57,6 +57,9 @@ std::vector<Change> changesOfNodes(MeshGlobe& globe) {
                            [=] { node->getStateSet()->removeMode(GL_DEPTH_TEST); }});
     }
     osg::PagedLOD& tile = *globe.tiles[19];
+    auto& transform = dynamic_cast<osg::MatrixTransform&>(*tile.getChild(0));
+    changes.push_back({"reference frame", [&] { transform.setReferenceFrame(osg::Transform::ABSOLUTE_RF); },
+                       [&] { transform.setReferenceFrame(osg::Transform::RELATIVE_RF); }});
     const osg::LOD::RangeList ranges = tile.getRangeList();
     changes.push_back({"ranges", [&tile] { tile.setRange(0, 0.0f, 1.0f); },
                        [&tile, ranges] { tile.setRange(0, ranges[0].first, ranges[0].second); }});

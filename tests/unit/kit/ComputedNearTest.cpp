@@ -13,6 +13,7 @@
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
 #include <support/CapturedNotes.h>
@@ -92,6 +93,28 @@ TEST(ComputedNear, IsAsFarAsWhatIsBesideTheDatabase) {
     absolute->addChild(ComputedPlanes::drawableAt(osg::Vec3(0.0f, 0.0f, -1e10f)));
     planes.scene->addChild(absolute);
     EXPECT_FALSE(planes.hidesFarTile());
+}
+
+// Where the root tests no tiles together, OSG enters what is there by itself.
+TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
+    for (const bool isTerrain : {true, false}) {
+        ComputedPlanes planes;
+        const osg::ref_ptr<osg::Group> tiles = new osg::Group(*planes.globe.root);
+        tiles->setCullCallback(nullptr);
+        tiles->setUpdateCallback(nullptr);
+        tiles->setComputeBoundingSphereCallback(nullptr);
+        osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        if (isTerrain) root = new osgTerrain::Terrain;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        root->addChild(tiles);
+        planes.scene->replaceChild(planes.globe.root, root);
+        planes.globe.root = root;
+        installBins(*root, withOcclusion());
+        if (!isTerrain) root->addCullCallback(new osg::NodeCallback);
+        EXPECT_TRUE(planes.hidesFarTile()) << isTerrain;
+        root->addChild(planes.drawableAhead(1e10));
+        EXPECT_FALSE(planes.hidesFarTile()) << isTerrain;
+    }
 }
 
 TEST(ComputedNear, IsFoundBelowTransforms) {

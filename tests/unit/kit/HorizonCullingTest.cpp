@@ -82,6 +82,19 @@ TEST(HorizonCulling, IsOffWhereItIsNotAskedFor) {
     EXPECT_EQ(undeclared.counts.hidden, 0u);
 }
 
+TEST(HorizonCulling, HidesNothingThatIsDrawnInFrontOfAll) {
+    const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    CountedGlobe globe(horizonOptions());
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setCullingActive(false);
+    scene->addChild(globe.root);
+    globe.reached(*scene, view);
+    EXPECT_GT(globe.counts.hidden, 0u);
+    scene->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    globe.reached(*scene, view);
+    EXPECT_EQ(globe.counts.hidden, 0u);
+}
+
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     const osg::ref_ptr<osg::Group> tile = new osg::Group;

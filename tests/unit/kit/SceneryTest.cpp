@@ -4,12 +4,16 @@
 // Tiles in the manner of FlightGear's, all of them loaded. Pictures of the same database: osgbinbench's
 // SceneryTest.cpp.
 
+#include "ApplicationGlobe.h"
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -99,6 +103,41 @@ TEST(Scenery, LosesNoSmallFeaturesButThoseThatOsgDrops) {
         dropped += smallWithBins.size();
     }
     EXPECT_GT(dropped, 20u) << "nothing is tested";
+}
+
+// A tile in ECEF, about which OSG has a larger sphere than the one about its bin.
+osg::ref_ptr<osg::PagedLOD> tileInEcef() {
+    const osg::ref_ptr<osg::MatrixTransform> frame = makeMeshTile(extentsDeg(35, 36, 45, 46), 0.0);
+    const osg::ref_ptr<osg::Node> mesh = frame->getChild(0);
+    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    for (osg::Vec3& vertex : vertices) vertex = osg::Vec3d(vertex) * frame->getMatrix();
+    osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "no.osgb", 1.0f);
+    setStoredBin(*tile, tileSurface(*mesh, osg::EllipsoidModel(), osg::Matrixd()).bin);
+    return tile;
+}
+
+TEST(Scenery, LosesNoTileThatIsSmallerThanItsSphere) {
+    for (const bool isFamily : {true, false}) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> stock = new osg::CoordinateSystemNode,
+                                                      withBins = new osg::CoordinateSystemNode;
+        for (const auto& root : {stock, withBins}) {
+            root->setEllipsoidModel(new osg::EllipsoidModel);
+            root->addChild(tileInEcef());
+        }
+        ASSERT_EQ(installBins(*withBins), 1u);
+        if (!isFamily) withBins->addCullCallback(new osg::NodeCallback);
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        std::size_t drawn = 0;
+        for (double distance = 5e6; distance < 2e8; distance *= 1.01) {
+            CullView view = CullView::lookAt(ecefDeg(35.5, 45.5, distance), ecefDeg(35.5, 45.5, 0), {0, 0, 1}, 60.0);
+            view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+            const std::size_t all = cull(*stock, view, *visitor).drawn.size();
+            EXPECT_GE(cull(*withBins, view, *visitor).drawn.size(), all) << distance << isFamily;
+            drawn += all;
+        }
+        EXPECT_GT(drawn, 20u);
+        EXPECT_LT(drawn, 350u);
+    }
 }
 
 }  // namespace

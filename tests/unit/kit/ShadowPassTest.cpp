@@ -74,6 +74,7 @@ std::vector<Look> looksAt(osgShadow::ShadowedScene& scene, CullView view, Camera
     view.camera = new osg::Camera;
     view.camera->setViewMatrix(view.modelView);
     view.camera->setProjectionMatrix(view.projection);
+    view.camera->setComputeNearFarMode(view.computeNearFar);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(scene, view, *visitor);
     return globe.takeLooks();
@@ -146,6 +147,23 @@ TEST(ShadowPasses, EveryCasterOfAViewDependentShadowMapIsDrawn) {
         EXPECT_GT(outside, 8u);                       // casters that the picture itself has not
         EXPECT_LT(drawn, passes * globe.size() / 4);  // and not the whole globe
     }
+}
+
+// The technique may have near and far planes computed for its own use: the projection stays as it is.
+TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
+    CameraGlobe globe(test::horizonOptions());
+    test::Random random(122);
+    LookTotals totals;
+    for (int i = 0; i < 8; ++i) {
+        Evening evening(random);
+        evening.view.projection = osg::Matrixd::perspective(40.0, 1.0, 1e6, 2e7);
+        const osg::ref_ptr<osgShadow::ViewDependentShadowMap> technique = new osgShadow::ViewDependentShadowMap;
+        const osg::ref_ptr<osgShadow::ShadowedScene> scene = shadowedScene(globe, technique.get(), evening.toLight);
+        scene->getShadowSettings()->setComputeNearFarModeOverride(osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES);
+        const std::vector<Look> looks = looksAt(*scene, evening.view, globe);
+        EXPECT_TRUE(totals.add(globe, looks.at(0), test::NearPlane::AtMinusOne).empty()) << i;
+    }
+    EXPECT_GT(totals.seen, 8u);
 }
 
 TEST(ShadowPasses, OtherTechniquesKeepWhatTheirCamerasSee) {

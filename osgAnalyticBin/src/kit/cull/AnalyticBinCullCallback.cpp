@@ -301,7 +301,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
             side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided);
         return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
     };
-    return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
+    return isCulledByBin(node, cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              const core::PlaneMask before = undecided;
                              const Verdict verdict = _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
@@ -320,12 +320,12 @@ bool AnalyticBinCullCallback::isSphereInView(const osg::Node& node, osg::CullSta
            !isSphereCulled(cullStack.getCurrentCullingSet(), undecided, node.getBound());
 }
 
-// Whether it obeys depth, with all that is below it, and by the states from the database down to it.
+// Whether it obeys depth, with all that is below it, and by the states down to it, from the database if there is one.
 bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const {
-    const StateRules rules{_setup->options.plainShaders};
+    const StateRules rules = view ? view->rules : StateRules::of(nv, _setup->options.plainShaders);
     const bool obeys = !_installed || !_installed->has(InstalledTile::IgnoresDepth);
     return obeys && drawnStateOf(node, rules).obeysDepth &&
-           (!view || drawnStateAbove(nv, view->rules, view->states).obeysDepth);
+           drawnStateAbove(nv, rules, view ? view->states : nullptr).obeysDepth;
 }
 
 // By what the tile is hidden; nullopt: by nothing. The states are asked last: that takes longest.

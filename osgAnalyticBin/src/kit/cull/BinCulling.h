@@ -72,15 +72,22 @@ void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor, osg::Callb
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);
 
-/// As isOutsideOrSmall(); the verdict is counted.
+/// Whether a tile is a small feature, by the sphere about its bin and by OSG's own, which may be larger.
+[[nodiscard]] inline bool isSmallTile(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere,
+                                      const osg::Node& tile) {
+    return isSmall(cullingSet, sphere) && (!tile.getBound().valid() || isSmall(cullingSet, tile.getBound()));
+}
+
+/// As isOutside() or isSmallTile(); the verdict is counted.
 template <class Classify>
-[[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
-                                 const osg::BoundingSphere& sphere, const Classify& classify) {
+[[nodiscard]] bool isCulledByBin(const osg::Node& tile, osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                 CullTraversal& traversal, const osg::BoundingSphere& sphere,
+                                 const Classify& classify) {
     Verdict verdict{core::Side::Straddling, Verdict::Plane};
-    const bool culled =
-        isOutsideOrSmall(cullStack, sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-            return (verdict = classify(frustum, undecided)).side;
-        });
+    const auto test = [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+        return (verdict = classify(frustum, undecided)).side;
+    };
+    const bool culled = isOutside(cullStack, test) || isSmallTile(cullStack.getCurrentCullingSet(), sphere, tile);
     count(traversal, nv, verdict, culled);
     return culled;
 }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../OwnUserData.h"
+
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/NodeVisitor>
@@ -27,6 +29,8 @@ BinStatistics& BinStatistics::of(osg::NodeVisitor& visitor) {
     if (const BinStatistics* known = find(visitor)) return const_cast<BinStatistics&>(*known);
     osg::ref_ptr<BinStatistics> made = new BinStatistics;
     made->_owner = &visitor;
+    // clones may cull in other threads
+    ownUserData(visitor);
     visitor.getOrCreateUserDataContainer()->addUserObject(made.get());
     return *made;
 }

@@ -163,8 +163,13 @@ std::optional<ComputedNear> ComputedNear::of(osgUtil::CullVisitor& visitor, cons
     if (path.empty() || path.back()->asTransform()) return std::nullopt;
     unknown = addBeside(beside, path, visitor);
     if (unknown) return std::nullopt;
-    near._others = std::max(beside.farthest(), visitor.getCalculatedFarPlane());
-    const bool areDepthsKnown = near.addKept(visitor, within);
+    // where the root's tiles are not tested together, OSG enters by itself what is there
+    osg::Node& root = *path.back();
+    const TileFamily* const family = CullCallbacks(root).family;
+    const bool isSelected = family && selection.hasSegment(*family);
+    bool areDepthsKnown = isSelected || within.addChildren(*root.asGroup(), *visitor.getModelViewMatrix(), nullptr);
+    near._others = std::max({beside.farthest(), within.farthest(), visitor.getCalculatedFarPlane()});
+    areDepthsKnown = areDepthsKnown && near.addKept(visitor, within);
     unknown = within.unknown();
     return areDepthsKnown ? std::optional(std::move(near)) : std::nullopt;
 }

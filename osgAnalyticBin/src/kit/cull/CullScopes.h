@@ -88,13 +88,12 @@ private:
     core::PlaneMask _before;
 };
 
-/// Whether a node is culled: by its bin against the undecided planes, or as a small feature. Planes that have the bin
-/// inside are cleared from the frustum's masks, so that they are not tested again below the node.
+/// Whether a node is culled by its bin against the undecided planes. Planes that have the bin inside are cleared from
+/// the frustum's masks, so that they are not tested again below the node.
 /// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin; it is called where OSG culls by
 /// the frustum.
 template <class Classify>
-[[nodiscard]] bool isOutsideOrSmall(osg::CullStack& cullStack, const osg::BoundingSphere& sphere,
-                                    const Classify& classify) {
+[[nodiscard]] bool isOutside(osg::CullStack& cullStack, const Classify& classify) {
     osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
     osg::Polytope& frustum = cullingSet.getFrustum();
     core::Side side = core::Side::Straddling;
@@ -104,7 +103,7 @@ template <class Classify>
         // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
         setUndecided(frustum, undecided);
     }
-    return side == core::Side::Outside || isSmall(cullingSet, sphere);
+    return side == core::Side::Outside;
 }
 
 /// The body of such a callback: `isCulled(osg::CullStack&)` decides in a cull traversal without occluders, `traverse()`

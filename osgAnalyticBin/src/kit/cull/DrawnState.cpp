@@ -188,19 +188,22 @@ DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
     }
 }
 
-// The bins that come with OSG draw what they hold, in one order or another.
+// The bins that come with OSG draw what they hold, in one order or another; that which sorts by depth, with an alpha
+// test.
 DrawnState ofRenderBin(const osg::StateSet& state) {
     if (state.getRenderBinMode() == osg::StateSet::INHERIT_RENDERBIN_DETAILS) return kHarmless;
     const std::string& name = state.getBinName();
-    const bool isKnown = name.empty() || name == "RenderBin" || name == "StateSortedBin" || name == "DepthSortedBin" ||
-                         name == "TraversalOrderBin";
-    if (!isKnown) return kUnknown;
-    return state.getRenderingHint() == osg::StateSet::TRANSPARENT_BIN ? kHidesNothing : kHarmless;
+    if (name == "DepthSortedBin") return kHidesNothing;
+    const bool isKnown = name.empty() || name == "RenderBin" || name == "StateSortedBin" || name == "TraversalOrderBin";
+    return isKnown ? kHarmless : kUnknown;
 }
 
-bool isMirror(const osg::Matrixd& m) {
+// Whether a visitor's picture is that of a mirror, by its view or by its projection.
+bool isMirrored(osgUtil::CullVisitor& visitor) {
+    const osg::Matrixd &m = *visitor.getModelViewMatrix(), &p = *visitor.getProjectionMatrix();
     const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
-    return (x ^ y) * z < 0.0;
+    const bool looksBackward = p(2, 3) > 0.0;
+    return ((x ^ y) * z < 0.0) != ((p(0, 0) * p(1, 1) < p(0, 1) * p(1, 0)) != looksBackward);
 }
 
 // OSG takes some textures without alpha for translucent.
@@ -265,7 +268,7 @@ DrawnState drawnState(const osg::StateSet& state, const StateRules& rules) {
 StateRules StateRules::of(osg::NodeVisitor& visitor, bool trustsShaders) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
     if (!cullVisitor) return {trustsShaders};
-    return {trustsShaders, isMirror(*cullVisitor->getModelViewMatrix()), cullVisitor->getViewport()};
+    return {trustsShaders, isMirrored(*cullVisitor), cullVisitor->getViewport()};
 }
 
 DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules) {

@@ -49,7 +49,7 @@ struct StateRules {
 
     /// All programs draw all of each triangle where its vertices are: CullOptions::plainShaders.
     bool trustsShaders = false;
-    /// The winding of front faces: clockwise below a matrix that mirrors.
+    /// The winding of front faces: clockwise where the matrices mirror.
     bool isClockwise = false;
     /// Where the camera draws; a state may set this one. Null: none.
     const osg::Viewport* viewport = nullptr;

@@ -304,7 +304,7 @@ bool FamilyTile::isBareMesh(const osg::NodeVisitor& visitor) const {
         const bool isBare = kind != Kind::Unknown && kind != Kind::Terrain && visitor.validNodeMask(node) &&
                             !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
                             !node.getEventCallback();
-        if (!isBare) return false;
+        if (!isBare || (kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(node)))) return false;
         if (kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback()) return false;
     }
     return part(0) != nullptr;

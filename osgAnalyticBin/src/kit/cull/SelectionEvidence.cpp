@@ -222,7 +222,9 @@ bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const
     const StateRules& rules = _selected.view.rules;
     // other classes, and their parts, were asked for when bins were installed
     const DrawnState drawn = node.asDrawable() ? drawnStateAt(node, rules) : drawnStateOf(node, rules);
-    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides;
+    const osg::Transform* const transform = node.asTransform();
+    const bool isInPlace = !transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF;
+    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && isInPlace;
 }
 
 // Whether all of a tile's own mesh is drawn.

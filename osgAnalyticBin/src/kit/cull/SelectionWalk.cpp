@@ -174,7 +174,9 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     osg::CullingSet& cullingSet = _selected.cullStack.getCurrentCullingSet();
     if (_testsSmallFeatures) {
         forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
-            if (isSmall(cullingSet, family.block()[first + number].bound)) culled |= std::uint64_t{1} << number;
+            const unsigned int slot = first + number;
+            if (isSmallTile(cullingSet, family.block()[slot].bound, family.node(slot)))
+                culled |= std::uint64_t{1} << number;
         });
     }
     TileSelection::Segment& segment = _selection.segment(_segment);

@@ -116,6 +116,15 @@ double reachOfNearPlane(const osg::Matrixd& p, const osg::Matrixd& eyeToWorld) {
     return nearest;
 }
 
+// Whether the near plane of the projection cuts what is drawn: not where OSG computes another one, unless it culls by
+// this one before, or the planes are computed for shadows alone (osgShadow::ViewDependentShadowMap).
+bool isNearPlaneInUse(osg::CullStack& cullStack, osg::NodeVisitor& visitor) {
+    const osg::Camera* const camera = stageCamera(visitor);
+    return isFinalProjection(cullStack) ||
+           (cullStack.getCurrentCullingSet().getCullingMask() & osg::CullingSet::NEAR_PLANE_CULLING) ||
+           (camera && camera->getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+}
+
 // A lower bound; scaled to the unit sphere, lengths shrink by the smaller radius at least.
 double distanceTo(const core::Ellipsoid& ellipsoid, double depth, const glm::dvec3& eye) {
     const double a = ellipsoid.equatorialRadius();
@@ -142,8 +151,7 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
         // in double precision; the cull stack's own eye point is float
         const osg::Vec3d eye = osg::Vec3d() * eyeToWorld;
         viewpoint._point = toGlm(eye);
-        // a computed near plane is not known before all is culled
-        if (isFinalProjection(cullStack)) viewpoint._nearReach = reachOfNearPlane(projection, eyeToWorld);
+        if (isNearPlaneInUse(cullStack, visitor)) viewpoint._nearReach = reachOfNearPlane(projection, eyeToWorld);
         return viewpoint;
     }
     osg::Matrixd unproject;

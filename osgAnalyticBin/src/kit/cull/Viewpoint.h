@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
 
     /// The largest distance of the near plane from the eye of a perspective camera, in the unit of the planes' frame.
-    /// Infinite in doubt, and where OSG computes the near plane after the cull traversal.
+    /// Infinite in doubt, and where OSG computes another near plane after the cull traversal.
     [[nodiscard]] double nearReach() const noexcept;
 
     /// The eye. Returns: nullptr for orthographic cameras.

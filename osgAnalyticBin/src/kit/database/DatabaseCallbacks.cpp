@@ -178,7 +178,10 @@ double reachOfComputedNear(const SelectedView& selected) {
     osgUtil::CullVisitor& visitor = *selected.visitor.asCullVisitor();
     const osg::Node* unknown = nullptr;
     const auto eyeToEcef = affineInverse(*visitor.getModelViewMatrix());
-    if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef) return kUnknown;
+    // tiles in front of the projection's own near plane are left out then
+    const bool isNearPlaneCulling =
+        visitor.getCurrentCullingSet().getCullingMask() & osg::CullingSet::NEAR_PLANE_CULLING;
+    if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef || isNearPlaneCulling) return kUnknown;
     const auto near = ComputedNear::of(visitor, *selected.view.selection, unknown);
     if (!near) return kUnknown;
     double toCorner = 0.0;

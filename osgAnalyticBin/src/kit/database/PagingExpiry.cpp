@@ -3,6 +3,7 @@
 
 #include "PagingExpiry.h"
 
+#include "../OwnUserData.h"
 #include "../PagedChildren.h"
 
 #include <osg/PagedLOD>
@@ -20,14 +21,6 @@ std::string keyOf(unsigned int child) {
     return "osgAnalyticBin expiry " + std::to_string(child);
 }
 
-// Gives a node that shares its user data, as clones do, a copy of its own.
-void ownValues(osg::Node& node) {
-    const osg::UserDataContainer* const values = node.getUserDataContainer();
-    if (!values || values->referenceCount() == 1) return;
-    const osg::ref_ptr<osg::UserDataContainer> own = osg::clone(values, osg::CopyOp::SHALLOW_COPY);
-    node.setUserDataContainer(own);
-}
-
 // Removes user data if they are empty without our last value.
 void forgetEmptyValues(osg::Node& node) {
     const osg::UserDataContainer* const values = node.getUserDataContainer();
@@ -39,7 +32,7 @@ void forgetEmptyValues(osg::Node& node) {
 void forget(osg::PagedLOD& node, const std::string& key) {
     osg::UserDataContainer* values = node.getUserDataContainer();
     if (!values || !values->getUserObject(key)) return;
-    ownValues(node);
+    ownUserData(node);
     values = node.getUserDataContainer();
     values->removeUserObject(values->getUserObjectIndex(key));
     forgetEmptyValues(node);
@@ -52,7 +45,7 @@ void raiseExpiry(osg::PagedLOD& node, double seconds) {
         const double own = node.getMinimumExpiryTime(i);
         if (!isPaged(node, i) || own > seconds) continue;
         if (own != 0.0 && seconds != 0.0) {
-            ownValues(node);
+            ownUserData(node);
             node.setUserValue(keyOf(i), own);
         }
         node.setMinimumExpiryTime(i, seconds);
