@@ -459,7 +459,10 @@ TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
     const auto cloneOfTile = [&](unsigned int i) { return scene->getChild(i)->asGroup()->getChild(slot); };
     ASSERT_EQ(cloneOfTile(1)->getCullCallback(), application.get());
     removeBins(*scene);
-    for (unsigned int i = 0; i < 2; ++i) EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
+    for (unsigned int i = 0; i < 2; ++i) {
+        EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
+        EXPECT_EQ(dynamic_cast<osg::PagedLOD&>(*cloneOfTile(i)).getMinimumExpiryTime(1), 0.0) << i;
+    }
     EXPECT_EQ(application->getNestedCallback(), nullptr);
 }
 

@@ -130,12 +130,14 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
 // tiles.
 TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
     struct Derived : osgUtil::CullVisitor {};
+    enum Way { Plain, ByDerived, ByItself };
     enum Place { Group, Tile, File };
     const std::pair<Place, bool> cases[] = {{Group, false}, {Group, true}, {Tile, false}, {Tile, true}, {File, false}};
-    for (const bool isDerived : {false, true}) {
+    for (const Way way : {Plain, ByDerived, ByItself}) {
         for (const auto& [place, isLater] : cases) {
             MeshGlobe globe;
-            if (isDerived) globe.visitor = new Derived;
+            if (way == ByDerived) globe.visitor = new Derived;
+            BinStatistics::of(*globe.visitor).setTileByTile(way == ByItself);
             const osg::ref_ptr<osg::Group> group = new osg::Group, file = new osg::Group;
             osg::PagedLOD& tile = *globe.tiles[15];
             globe.root->replaceChild(&tile, group);
@@ -149,7 +151,7 @@ TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
             osg::Node& node = place == Group ? *group : place == Tile ? static_cast<osg::Node&>(tile) : *file;
             node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
             if (!isLater) installBins(*globe.root);
-            EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isDerived << place << isLater;
+            EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << way << place << isLater;
             EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
         }
     }

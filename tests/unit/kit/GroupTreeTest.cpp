@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -136,17 +137,18 @@ TEST(GroupTree, DoubtsAGroupWithoutItsWatch) {
 
 // Where terrain is gone the horizon hides nothing.
 TEST(GroupTree, SeesThroughAHoleWhereGroupsWere) {
-    for (const bool isHalf : {false, true}) {
+    const std::pair<bool, bool> pairs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
+    for (const auto& [isHalf, isReplaced] : pairs) {
         GroupTree tree;
         ASSERT_EQ(installBins(*tree.root), 32u);
         ASSERT_FALSE(tree.drawsAntipode());
         osg::Group& seen = *tree.tiles[19]->getParent(0);
         osg::Group& gone = isHalf ? *seen.getParent(0) : seen;
         const osg::ref_ptr<osg::Node> kept(&gone);
-        gone.getParent(0)->removeChild(&gone);
-        EXPECT_TRUE(tree.drawsAntipode()) << isHalf;
+        isReplaced ? gone.getParent(0)->replaceChild(&gone, new osg::Group) : gone.getParent(0)->removeChild(&gone);
+        EXPECT_TRUE(tree.drawsAntipode()) << isHalf << isReplaced;
         update(*tree.root);
-        EXPECT_TRUE(tree.drawsAntipode()) << isHalf;
+        EXPECT_TRUE(tree.drawsAntipode()) << isHalf << isReplaced;
     }
 }
 

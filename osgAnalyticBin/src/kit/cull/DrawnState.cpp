@@ -235,9 +235,7 @@ bool isKnownGroup(const osg::Node& node) {
 
 DrawnState ofDrawable(const osg::Drawable& drawable) {
     if (drawable.getDrawCallback()) return kUnknown;
-    if (!isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable)) return kUnknown;
-    // it may change what is drawn
-    return drawable.getUpdateCallback() || drawable.getEventCallback() ? kHidesNothing : kHarmless;
+    return isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) ? kHarmless : kUnknown;
 }
 
 DrawnState ofClass(const osg::Node& node) {
