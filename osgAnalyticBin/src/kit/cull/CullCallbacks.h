@@ -49,12 +49,13 @@ struct CullCallbacks {
     bool isUnknown = false;  ///< one that may leave out may also draw otherwise
 };
 
-/// Of a node without what is below it: its state, its class, its callbacks.
+/// Of a node without what is below it: its state, its class, its primitives, its callbacks.
 [[nodiscard]] inline DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
     DrawnState drawn = drawnStateByClass(node, rules);
+    drawn.obeysDepth = drawn.obeysDepth && drawsFaces(node);
     if (node.getCullCallback()) {
         const CullCallbacks callbacks(node);
-        if (callbacks.isUnknown) drawn = {false, false, false};
+        if (callbacks.isUnknown) drawn = {false, false};
         drawn.hides = drawn.hides && !callbacks.mayLeaveOut;
     }
     drawn.isCulled = node.getCullingActive();

@@ -71,7 +71,7 @@ namespace {
 using Attribute = osg::StateAttribute;
 
 constexpr GLenum kSeamlessCubeMaps = 0x884F;  // GL_TEXTURE_CUBE_MAP_SEAMLESS
-constexpr DrawnState kHarmless{true, true, true}, kUnknown{false, false, false}, kHidesNothing{false, true, true};
+constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
 
 DrawnState ofDepth(const osg::Depth& depth) {
     const bool isNearest = depth.getFunction() == osg::Depth::LESS || depth.getFunction() == osg::Depth::LEQUAL;
@@ -82,7 +82,7 @@ DrawnState ofDepth(const osg::Depth& depth) {
 DrawnState ofPolygonMode(const osg::PolygonMode& mode) {
     const bool isFilled = mode.getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
                           mode.getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL;
-    return isFilled ? kHarmless : DrawnState{false, true, false};
+    return isFilled ? kHarmless : kUnknown;
 }
 
 DrawnState ofColorMask(const osg::ColorMask& mask) {
@@ -273,6 +273,15 @@ DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules) {
     DrawnState drawn = drawnStateOf(node, rules);
     drawn &= ofClass(node);
     return drawn;
+}
+
+bool drawsFaces(const osg::Node& node) {
+    const osg::Geometry* const geometry = node.asGeometry();
+    if (!geometry) return true;
+    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
+    return std::all_of(sets.begin(), sets.end(), [](const osg::ref_ptr<osg::PrimitiveSet>& primitives) {
+        return !primitives || (primitives->getMode() >= GL_TRIANGLES && primitives->getMode() <= GL_POLYGON);
+    });
 }
 
 DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end, const StateRules& rules) {

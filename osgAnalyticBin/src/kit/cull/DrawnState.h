@@ -22,10 +22,9 @@ namespace osgAnalyticBin {
 struct DrawnState {
     /// Front faces are drawn whole and opaque, back faces too or not, at the depths of their vertices.
     bool hides = true;
-    /// Nothing is drawn where something nearer is.
+    /// Nothing is drawn where something nearer is, and nothing beside the triangles of the vertices, as lines and points
+    /// are: what hides the triangles hides all.
     bool obeysDepth = true;
-    /// Nothing is drawn beside the triangles of the vertices, as wide lines and points are.
-    bool isFilled = true;
     /// OSG may cull it: osg::Node::setCullingActive() has not switched that off, as it is for light sources and
     /// absolute transforms.
     bool isCulled = true;
@@ -33,7 +32,6 @@ struct DrawnState {
     DrawnState& operator&=(const DrawnState& other) {
         hides = hides && other.hides;
         obeysDepth = obeysDepth && other.obeysDepth;
-        isFilled = isFilled && other.isFilled;
         isCulled = isCulled && other.isCulled;
         return *this;
     }
@@ -63,8 +61,11 @@ struct StateRules {
     return node.getStateSet() ? drawnState(*node.getStateSet(), rules) : DrawnState();
 }
 
-/// Of a node by its state and its class, whatever its callbacks and what is below it.
+/// Of a node by its state and its class, whatever its callbacks, its primitives and what is below it.
 [[nodiscard]] DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules);
+
+/// Whether a node draws no lines and no points, which are drawn wider than their vertices reach.
+[[nodiscard]] bool drawsFaces(const osg::Node& node);
 
 /// Of the states of a graph and of those above it, without `end` and those above that.
 [[nodiscard]] DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end,

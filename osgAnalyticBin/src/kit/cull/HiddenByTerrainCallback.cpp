@@ -10,7 +10,6 @@
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
 #include <osg/Billboard>
-#include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/Transform>
 #include <osgTerrain/TerrainTile>
@@ -33,15 +32,6 @@ bool keepsSpheres(const osg::Transform& transform) {
     return std::abs(x * y) <= tolerance && std::abs(y * z) <= tolerance && std::abs(z * x) <= tolerance;
 }
 
-// Lines and points are drawn wider than their vertices reach.
-bool drawsFaces(const osg::Geometry& geometry) {
-    for (const auto& primitives : geometry.getPrimitiveSetList()) {
-        const GLenum mode = primitives->getMode();
-        if (mode < GL_TRIANGLES || mode > GL_POLYGON) return false;
-    }
-    return true;
-}
-
 // The user's sphere may be smaller than what is below.
 bool holdsLevels(const osg::LOD& lod) {
     if (lod.getCenterMode() != osg::LOD::USER_DEFINED_CENTER || lod.getRadius() < 0.0f) return true;
@@ -58,9 +48,8 @@ bool holdsLevels(const osg::LOD& lod) {
 bool drawsWithinSphere(const osg::Node& node) {
     if (node.getComputeBoundingSphereCallback() && BoundWatch::hasOwnBound(node)) return false;
     if (const osg::Drawable* const drawable = node.asDrawable()) {
-        const osg::Geometry* const geometry = drawable->asGeometry();
         const bool mayChange = drawable->getUpdateCallback() || drawable->getEventCallback();
-        return !drawable->getComputeBoundingBoxCallback() && !mayChange && (!geometry || drawsFaces(*geometry));
+        return !drawable->getComputeBoundingBoxCallback() && !mayChange;
     }
     if (const osg::Transform* const transform = node.asTransform()) return keepsSpheres(*transform);
     if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node)) return true;
@@ -72,7 +61,7 @@ bool drawsWithinSphere(const osg::Node& node) {
 // Whether all that may be drawn below a node is within its sphere and nowhere in front of what is nearer.
 bool staysBehind(const osg::Node& node, const StateRules& rules) {
     const DrawnState drawn = drawnStateAt(node, rules);
-    if (!drawn.obeysDepth || !drawn.isFilled || !node.isCullingActive() || !drawsWithinSphere(node)) return false;
+    if (!drawn.obeysDepth || !node.isCullingActive() || !drawsWithinSphere(node)) return false;
     const osg::Group* const group = node.asGroup();
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         if (!staysBehind(*group->getChild(i), rules)) return false;
@@ -91,7 +80,7 @@ bool isHidden(const osg::Node& node, osgUtil::CullVisitor& visitor) {
     if (!hiding.hides(visitor, sphereBelow(node), *visitor.getModelViewMatrix())) return false;
     const StateRules rules{false, false, visitor.getViewport()};
     const DrawnState above = hiding.stateAbove(visitor, rules);
-    return above.obeysDepth && above.isFilled && staysBehind(node, rules);
+    return above.obeysDepth && staysBehind(node, rules);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ bool HidingView::staysOverRegion() {
 
 DrawnState HidingView::stateAbove(osgUtil::CullVisitor& visitor, const StateRules& rules) {
     const osgUtil::StateGraph* const graph = visitor.getCurrentStateGraph();
-    if (!graph) return {false, false, false};
+    if (!graph) return {false, false};
     if (!_above || graph->_parent != _above) {
         _above = graph->_parent;
         _stateAbove = drawnStates(_above, nullptr, rules);

@@ -221,7 +221,7 @@ bool SelectionWalk::standsAsInstalled(const osg::Node& node, const AnalyticBinCu
 bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
     const StateRules& rules = _selected.view.rules;
     // other classes, and their parts, were asked for when bins were installed
-    const DrawnState drawn = node.asDrawable() ? drawnStateAt(node, rules) : drawnStateOf(node, rules);
+    const DrawnState drawn = node.asDrawable() ? drawnStateByClass(node, rules) : drawnStateOf(node, rules);
     const osg::Transform* const transform = node.asTransform();
     const bool isInPlace = !transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF;
     return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && isInPlace;

@@ -54,7 +54,8 @@ public:
         GapBelow = 1u << 7,
         /// The tile draws something that is not known to hide what is behind it.
         SeeThrough = 1u << 8,
-        /// The tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile.
+        /// The tile, or something below it, may be drawn in front of what is nearer, or beside its triangles: nothing
+        /// hides the tile.
         IgnoresDepth = 1u << 9,
         /// The application has switched off culling for the tile's mesh, or for something below it: never culled.
         NeverCulled = 1u << 10,
