@@ -59,6 +59,8 @@ FAULTS = [
           "if (!isPlain || ", "if (", NODE, "TileSurface.ReadsNothing*"),
     Fault("techniques derived from OSG's draw as OSG's", "src/kit/surface/TerrainTileSurface.cpp",
           "isOneOf<osgTerrain::GeometryTechnique>(*technique)", "technique->className()", NODE, "TerrainTechnique.*"),
+    Fault("vertices in the globe's frame are not rounded", "src/kit/surface/SurfaceReading.cpp",
+          "drawingErrorOf(farthestVertex(mesh, localToEcef))", "0.0", NODE, "TileSurface.HoldsVertices*"),
     Fault("colours stand where their tile stands", "src/kit/surface/TerrainTileSurface.cpp",
           "if (colour && colour->getLocator()) away", "if (!colour) away", NODE, "TileSurface.HoldsATerrainTileWhose*"),
     Fault("an index does not know where billboards stand", "src/kit/surface/SurfaceFingerprint.cpp",

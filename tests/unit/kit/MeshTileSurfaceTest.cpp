@@ -218,6 +218,29 @@ TEST(TileSurface, FollowsFixedTransformsOnly) {
     EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
 }
 
+TEST(TileSurface, HoldsVerticesInTheFrameOfTheGlobeWhereTheyAreDrawn) {
+    Random random(12);
+    for (int trial = 0; trial < 50; ++trial) {
+        const double south = random.uniform(-80.0, 80.0), west = random.uniform(-180.0, 180.0);
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        for (int i = 0; i < 30; ++i) {
+            const osg::Vec3d place =
+                ecefDeg(south + random.uniform(0.0, 0.01), west + random.uniform(0.0, 0.01), random.uniform(0, 100));
+            vertices->push_back(osg::Vec3(place));
+        }
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 30));
+        const TileSurface surface = surfaceOf(*geometry);
+        const osg::Matrixd view =
+            osg::Matrixd::lookAt(ecefDeg(south, west, 200.0), osg::Vec3d((*vertices)[0]), osg::Vec3d(0, 0, 1));
+        for (const osg::Vec3& v : *vertices) {
+            const osg::Vec3d ecef = drawnByFloats(v, view);
+            EXPECT_LE(metresOutside(surface.bin, {ecef.x(), ecef.y(), ecef.z()}, kEllipsoid), surface.bin.margin());
+        }
+    }
+}
+
 TEST(TileSurface, HoldsLinesPointsAndShapes) {
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     const osg::ref_ptr<osg::Geometry> road = new osg::Geometry;

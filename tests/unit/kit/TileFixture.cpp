@@ -112,6 +112,16 @@ std::vector<glm::dvec3> samplesOf(const std::vector<EcefTriangle>& triangles, in
     return samples;
 }
 
+osg::Vec3d drawnByFloats(const osg::Vec3& vertex, const osg::Matrixd& modelView) {
+    const osg::Matrixf rounded(modelView);
+    osg::Vec3d drawn;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float sum = vertex.x() * rounded(0, axis) + vertex.y() * rounded(1, axis);
+        drawn[axis] = static_cast<double>(sum + vertex.z() * rounded(2, axis) + rounded(3, axis));
+    }
+    return drawn * osg::Matrixd::inverse(modelView);
+}
+
 double metresOutside(const AnalyticBin& bin, const glm::dvec3& ecef, const core::Ellipsoid& ellipsoid) {
     const core::Geodetic position = ellipsoid.toGeodetic(ecef);
     const double north = excess(position.latitude, bin.bin().latitude()) * ellipsoid.equatorialRadius();

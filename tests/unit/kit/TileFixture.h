@@ -39,6 +39,9 @@ struct DrawnTriangles {
 /// Points all over the triangles, corners and edges included.
 [[nodiscard]] std::vector<glm::dvec3> samplesOf(const std::vector<EcefTriangle>& triangles, int steps = 6);
 
+/// Where a graphics driver draws a vertex, in the vertex's frame: it rounds the matrix and all sums to float.
+[[nodiscard]] osg::Vec3d drawnByFloats(const osg::Vec3& vertex, const osg::Matrixd& modelView);
+
 /// Metres by which a point is outside of a bin, its margin left out; 0 inside.
 [[nodiscard]] double metresOutside(const AnalyticBin& bin, const glm::dvec3& ecef, const core::Ellipsoid& ellipsoid);
 

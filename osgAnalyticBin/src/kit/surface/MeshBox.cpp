@@ -3,6 +3,8 @@
 
 #include "MeshBox.h"
 
+#include "TerrainLimits.h"
+
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <cmath>
@@ -56,8 +58,9 @@ AnalyticBin MeshBox::bin() const {
     if (!_box.valid() || !isInMap(_box.xMin()) || !isInMap(_box.xMax()) || !isInMap(_box.yMin()) ||
         !isInMap(_box.yMax()))
         return {};
-    return AnalyticBin(core::GeodeticBin({_box.yMin() / kUnits, _box.yMax() / kUnits},
-                                         {_box.xMin() / kUnits, _box.xMax() / kUnits}, {_box.zMin(), _box.zMax()}));
+    const core::GeodeticBin bin({_box.yMin() / kUnits, _box.yMax() / kUnits},
+                                {_box.xMin() / kUnits, _box.xMax() / kUnits}, {_box.zMin(), _box.zMax()});
+    return AnalyticBin(bin, drawingErrorOf(largestCoordinate(bin)));
 }
 
 }  // namespace osgAnalyticBin

@@ -4,11 +4,14 @@
 #include "SurfaceMesh.h"
 
 #include "../Classes.h"
+#include "../GlmBridge.h"
 
+#include <glm/geometric.hpp>
 #include <osg/ShapeDrawable>
 #include <osg/TriangleFunctor>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin {
 
@@ -187,6 +190,16 @@ bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, Su
     functor.toEcef = &localToEcef;
     drawable.accept(functor);
     return true;
+}
+
+double farthestVertex(const SurfaceMesh& mesh, const osg::Matrixd& localToEcef) {
+    const glm::dvec3 origin = toGlm(localToEcef.getTrans());
+    double farthest2 = 0.0;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const glm::dvec3 from = mesh.vertex(i) - origin;
+        farthest2 = std::max(farthest2, glm::dot(from, from));
+    }
+    return std::sqrt(farthest2);
 }
 
 void dropUnusedVertices(SurfaceMesh& mesh) {

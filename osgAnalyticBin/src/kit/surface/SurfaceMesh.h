@@ -30,6 +30,9 @@ struct SurfaceMesh : core::EcefMesh {
 /// primitives of a class that is not known.
 [[nodiscard]] bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh);
 
+/// Metres from the origin of the frame `localToEcef` to the farthest vertex.
+[[nodiscard]] double farthestVertex(const SurfaceMesh& mesh, const osg::Matrixd& localToEcef);
+
 /// Puts any other vertex in place of those that no triangle uses. Requires: a triangle.
 void dropUnusedVertices(SurfaceMesh& mesh);
 

@@ -99,7 +99,7 @@ std::array<double, kEdges> edgeLows(const core::MeshBounds& bounds, const MeshSk
 
 // The surface of one drawable's mesh, whose skirts are folded up. Requires: at least one triangle, indices
 // within the vertices.
-TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+TileSurface meshSurface(SurfaceMesh& mesh, const osg::Matrixd& localToEcef, const core::Ellipsoid& ellipsoid) {
     const MeshSkirts skirts = foldSkirts(mesh, ellipsoid);
     dropUnusedVertices(mesh);
     // keeps its memory: fresh pages from the system for every tile cost a third of the work
@@ -111,8 +111,9 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (bounds.bin().empty() || !isTerrain) return {};
 
     TileSurface result;
-    const double error =
-        ellipsoid.isPlane() ? drawingErrorInMap(largestCoordinate(bounds.bin())) : drawingError(ellipsoid);
+    const double error = ellipsoid.isPlane()
+                             ? drawingErrorOf(largestCoordinate(bounds.bin()))
+                             : std::max(drawingError(ellipsoid), drawingErrorOf(farthestVertex(mesh, localToEcef)));
     result.bin = AnalyticBin(bounds.bin(), error + bounds.axisError());
     result.bin.setSag(bounds.sag());
     result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
@@ -150,7 +151,7 @@ private:
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
-        if (!mesh.triangles.empty()) unite(meshSurface(mesh, _ellipsoid));
+        if (!mesh.triangles.empty()) unite(meshSurface(mesh, localToEcef(), _ellipsoid));
         // after the vertices: OSG crashes on indices beyond them
         if (!isHeldByItsVertices(drawable)) visitUnknown(drawable);
     }
@@ -160,7 +161,7 @@ private:
         if (!bound.valid()) return giveUp();
         SurfaceMesh box;
         addBox(bound, localToEcef(), box);
-        unite(meshSurface(box, _ellipsoid));
+        unite(meshSurface(box, localToEcef(), _ellipsoid));
     }
 
     void visitBillboard(osg::Billboard& node) override {
@@ -173,7 +174,7 @@ private:
             const osg::Vec3d middle(positions[i]), toCorner(*reach, *reach, *reach);
             addBox({middle - toCorner, middle + toCorner}, localToEcef(), cubes);
         }
-        if (!cubes.triangles.empty()) unite(meshSurface(cubes, _ellipsoid));
+        if (!cubes.triangles.empty()) unite(meshSurface(cubes, localToEcef(), _ellipsoid));
     }
 
     void unite(const TileSurface& part) {

@@ -117,7 +117,7 @@ double reachOf(osgTerrain::TerrainTile& tile, const core::GeodeticGrid& grid, co
 
 // By which the whole grid and those of descendants may leave their bin in a map.
 double marginInMap(const core::GeodeticGrid& grid, const core::Interval& altitude, double reach) {
-    return drawingErrorInMap(std::max(reach, largestCoordinate({grid.latitude, grid.longitude, altitude})));
+    return drawingErrorOf(std::max(reach, largestCoordinate({grid.latitude, grid.longitude, altitude})));
 }
 
 double marginOf(double reach, const core::Ellipsoid& ellipsoid) {
@@ -238,7 +238,7 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
             // as the technique multiplies
             posts.altitudes.push_back(static_cast<double>(height * static_cast<float>(shape.verticalScale)));
             const double farthest = reach + std::abs(posts.altitudes.back());
-            if (model.isPlane()) posts.margin = std::max(posts.margin, drawingErrorInMap(farthest));
+            if (model.isPlane()) posts.margin = std::max(posts.margin, drawingErrorOf(farthest));
         }
     }
     return posts;

@@ -74,7 +74,8 @@ public:
     [[nodiscard]] double rounding() const { return kFloatRounding * _farthest; }
     // How far from its place the mesh may be drawn.
     [[nodiscard]] double drawingError(const core::Ellipsoid& globe) const {
-        return globe.isPlane() ? drawingErrorInMap(_farthest) : osgAnalyticBin::drawingError(globe);
+        const double error = drawingErrorOf(_farthest);
+        return globe.isPlane() ? error : std::max(error, osgAnalyticBin::drawingError(globe));
     }
     // Metres that skirts hang down, which are not in the mesh.
     [[nodiscard]] double skirt() const { return _skirt; }
@@ -99,9 +100,7 @@ private:
             _skirt = std::max(_skirt, skirts.depth);
         }
         dropUnusedVertices(part);
-        const glm::dvec3 origin = toGlm(localToEcef().getTrans());
-        for (std::size_t i = 0; i < part.size(); ++i)
-            _farthest = std::max(_farthest, glm::distance(origin, part.vertex(i)));
+        _farthest = std::max(_farthest, farthestVertex(part, localToEcef()));
         const auto first = static_cast<std::uint32_t>(_mesh.size());
         _mesh.x.insert(_mesh.x.end(), part.x.begin(), part.x.end());
         _mesh.y.insert(_mesh.y.end(), part.y.begin(), part.y.end());
