@@ -123,7 +123,7 @@ TEST(ContentOfMeshes, IsDrawnAsItTurnsToTheEye) {
     MeshGlobe globe;
     const AboveTheMesh above(globe);
     const osg::ref_ptr<osg::MatrixTransform> sign = new Upright;
-    sign->addChild(makeTower(osg::Vec3d(0.0, -15000.0, -15000.0), 30000.0f));
+    sign->addChild(makeTower(osg::Vec3d(0.0, -30000.0, -30000.0), 60000.0f));
     osg::Matrixd frame;
     globe.root->getEllipsoidModel()->computeLocalToWorldTransformFromLatLongHeight(
         osg::DegreesToRadians(22.5), osg::DegreesToRadians(-22.5), 0.0, frame);
@@ -131,7 +131,7 @@ TEST(ContentOfMeshes, IsDrawnAsItTurnsToTheEye) {
         new osg::MatrixTransform(frame * osg::Matrixd::inverse(above.mesh.getWorldMatrices()[0]));
     stand->addChild(sign);
     above.mesh.addChild(stand);
-    const CullView view = beside(ecefDeg(22.5, -22.5, 14000.0));
+    const CullView view = beside(ecefDeg(22.5, -22.5, 25000.0));
     ASSERT_TRUE(globe.draws(*sign, view));
     installBins(*globe.root);
     EXPECT_TRUE(globe.draws(*sign, view));

@@ -157,7 +157,7 @@ TEST_P(PlanetSurface, HoldsMeshes) {
             const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
             ASSERT_TRUE(surface.bin.valid()) << unit << " at " << south;
             EXPECT_NEAR(surface.skirt, kDeepSkirt * radius, 1e-6 * radius);
-            EXPECT_LE(surface.bin.margin(), 2e-7 * radius);
+            EXPECT_LE(surface.bin.margin(), 4e-7 * radius);
 
             std::vector<EcefTriangle> triangles = drawnTriangles(*tile).surface;
             triangles.resize(kMeshTriangles);
