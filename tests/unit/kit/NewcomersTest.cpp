@@ -111,8 +111,9 @@ TEST(Newcomers, ThatWereReadWithoutBinsMayLeaveGaps) {
 TEST(Newcomers, ThatAnEarlierInstallationHasReadMayNeverBeCulled) {
     FiledGlobe globe;
     pageOut(*globe.tile);
-    globe.group->addChild(new osg::LightSource);
-    ASSERT_TRUE(osgDB::writeNodeFile(*globe.group, globe.folder / "group.osgb"));
+    const osg::ref_ptr<osg::Group> written = Neighbours::levelOf(0.0);
+    written->addChild(new osg::LightSource);
+    ASSERT_TRUE(osgDB::writeNodeFile(*written, globe.folder / "group.osgb"));
     const osg::ref_ptr<osg::Node> file = readBelow(*globe.tile);
     installBins(*globe.root);
     update(*globe.root);
