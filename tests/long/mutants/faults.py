@@ -315,6 +315,8 @@ FAULTS = [
     Fault("state: of tiles without a database nobody asks", "src/kit/cull/AnalyticBinCullCallback.cpp",
           "drawnStateAbove(nv, rules, view ? view->states : nullptr).obeysDepth;",
           "(!view || drawnStateAbove(nv, rules, view->states).obeysDepth);", NODE, "HorizonCulling.*"),
+    Fault("state: classes of the application's page as OSG's does", "src/kit/install/BinInstaller.cpp",
+          "if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node))", "if (isPaged && false)", NODE, "HoledGlobe.*"),
     Fault("state: frames stay relative", "src/kit/cull/SelectionEvidence.cpp", "drawn.hides && isInPlace;",
           "drawn.hides && (isInPlace || true);", NODE, "Changes.*"),
     Fault("statistics are put where clones share them", "src/kit/cull/BinStatistics.cpp", "    ownUserData(visitor);\n", "",
