@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../kit/GlmBridge.h"
+#include "../kit/SmallFeature.h"
 #include "../kit/cull/CullScopes.h"
 
 #include <osgAnalyticBin/BinStatistics.h>

@@ -218,6 +218,24 @@ TEST(HoledGlobe, IsSeenThroughWhereTheNearPlaneCutsItOpen) {
     }
 }
 
+// A class of the application's that pages tiles need not show what OSG's would.
+struct OwnPagedLod : osg::PagedLOD {
+    explicit OwnPagedLod(const osg::PagedLOD& other) : osg::PagedLOD(other) {}
+    void traverse(osg::NodeVisitor& nv) override {
+        if (nv.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) osg::PagedLOD::traverse(nv);
+    }
+};
+
+TEST(HoledGlobe, IsSeenThroughWhereAClassOfTheApplicationsPagesTiles) {
+    for (const bool isBehind : {false, true}) {
+        MeshGlobe globe;
+        globe.root->replaceChild(globe.tiles[19], new OwnPagedLod(*globe.tiles[19]));
+        installBins(*globe.root);
+        if (isBehind) globe.root->addCullCallback(new osg::NodeCallback);
+        EXPECT_TRUE(globe.drawsAntipode()) << isBehind;
+    }
+}
+
 // By the plane that the application has set, though the one that OSG computes would leave them.
 TEST(HoledGlobe, IsSeenThroughWhereTilesAreCulledByTheNearPlane) {
     const osg::Vec3d above = ecefDeg(0.1, 1.1, 20000.0);

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "../SmallFeature.h"
 #include "CullScopes.h"
 #include "CullTraversal.h"
 

@@ -6,11 +6,9 @@
 #pragma once
 
 #include "../Classes.h"
-#include "../SmallFeature.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
-#include <osg/BoundingSphere>
 #include <osg/Callback>
 #include <osg/ClusterCullingCallback>
 #include <osg/CullSettings>

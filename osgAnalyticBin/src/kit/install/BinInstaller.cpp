@@ -4,6 +4,7 @@
 #include "BinInstaller.h"
 
 #include "../CallbackChain.h"
+#include "../Classes.h"
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "../cull/CullCallbacks.h"
@@ -438,6 +439,9 @@ void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, Instal
 void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     DrawnState drawn = drawnStateOf(*tile.node, stateRules());
     for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
+    // a class of the application's may show anything of a tile
+    const bool isPaged = dynamic_cast<const osg::PagedLOD*>(tile.node.get());
+    if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node)) drawn.hides = drawn.obeysDepth = false;
     if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
     installed.doubtUpwards(reasonsAbove(drawn));
 }
