@@ -13,6 +13,7 @@
 #include "Picks.h"
 #include "Recorder.h"
 #include "States.h"
+#include "Triangles.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -152,7 +153,7 @@ public:
         const std::vector<Leaf> plain = leavesFor(*_plain), derived = leavesFor(*_derived);
         // where OSG computes the near plane, less is known of how far a derived visitor draws, and so of what is hidden
         const bool isNearComputed = spec.computeNearFar != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
-        if (!isTerrainScaled && !isNearComputed) return plain == derived;
+        if (!isTerrainScaled && !isNearComputed && hasOthersInPicture(plain, derived)) return false;
         return withoutOthers(plain, derived) == withoutOthers(derived, plain);
     }
 
@@ -175,15 +176,34 @@ private:
         DerivedVisitor() { setDrawsAsCullVisitor(*this); }
     };
 
-    // Those of drawables that are delivered as often to the other visitor.
-    static std::vector<Leaf> withoutOthers(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
-        std::map<const osg::Drawable*, int> surplus;
+    // How much more often each drawable is delivered to one visitor than to the other.
+    using Surplus = std::map<const osg::Drawable*, int>;
+    static Surplus surplusOf(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
+        Surplus surplus;
         for (const Leaf& leaf : leaves) ++surplus[leaf.drawable];
         for (const Leaf& leaf : other) --surplus[leaf.drawable];
+        return surplus;
+    }
+
+    // Those of drawables that are delivered as often to the other visitor.
+    static std::vector<Leaf> withoutOthers(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
+        const Surplus surplus = surplusOf(leaves, other);
         std::vector<Leaf> common;
         std::copy_if(leaves.begin(), leaves.end(), std::back_inserter(common),
-                     [&](const Leaf& leaf) { return surplus[leaf.drawable] == 0; });
+                     [&](const Leaf& leaf) { return surplus.at(leaf.drawable) == 0; });
         return common;
+    }
+
+    // Whether one visitor is delivered something more often that is in the picture. What is not, one may leave out
+    // alone: for a derived visitor OSG tests below transforms again what spheres of groups have decided, and bins
+    // across more than two planes are not tested against edges.
+    static bool hasOthersInPicture(const std::vector<Leaf>& plain, const std::vector<Leaf>& derived) {
+        const Surplus surplus = surplusOf(plain, derived);
+        const auto isOther = [&](const Leaf& leaf) {
+            return surplus.at(leaf.drawable) != 0 &&
+                   Triangles(*leaf.drawable, leaf.matrix).areInPicture(leaf.projection);
+        };
+        return std::any_of(plain.begin(), plain.end(), isOther) || std::any_of(derived.begin(), derived.end(), isOther);
     }
 
     // A view has one state.

@@ -69,8 +69,8 @@ std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
             std::vector<const osg::StateSet*> states;
             for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
             for (const auto& leaf : graph->_leaves) {
-                found.push_back(
-                    {leaf->_traversalOrderNumber, {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
+                found.push_back({leaf->_traversalOrderNumber,
+                                 {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states, *leaf->_projection}});
             }
         }
         for (const auto& [number, child] : from.getRenderBinList()) collect(*child);

@@ -45,12 +45,13 @@ struct CullResult {
     osg::ref_ptr<osgUtil::RenderStage> stage;
 };
 
-/// A leaf of a render bin: the drawable, its matrix, its depth, the states above it.
+/// A leaf of a render bin: the drawable, its matrix, its depth, the states above it. The projection is not compared.
 struct Leaf {
     const osg::Drawable* drawable;
     osg::Matrixd matrix;
     float depth;
     std::vector<const osg::StateSet*> states;
+    osg::Matrixd projection;
 
     bool operator==(const Leaf& other) const {
         return drawable == other.drawable && matrix == other.matrix && depth == other.depth && states == other.states;
