@@ -233,8 +233,10 @@ bool isKnownGroup(const osg::Node& node) {
 DrawnState ofDrawable(const osg::Drawable& drawable) {
     if (drawable.getDrawCallback()) return kUnknown;
     if (!isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable)) return kUnknown;
-    // it may change what is drawn
-    return drawable.getUpdateCallback() || drawable.getEventCallback() ? kHidesNothing : kHarmless;
+    // it may change what is drawn; OSG may leave out what is not in a box of the application's
+    const bool isAltered =
+        drawable.getUpdateCallback() || drawable.getEventCallback() || drawable.getComputeBoundingBoxCallback();
+    return isAltered ? kHidesNothing : kHarmless;
 }
 
 DrawnState ofClass(const osg::Node& node) {

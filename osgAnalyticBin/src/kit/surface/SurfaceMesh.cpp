@@ -116,8 +116,15 @@ void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vecto
     }
 }
 
+// Others may draw a part of their indices, by commands, or several strips one after the other.
+bool drawsAllIndices(const osg::PrimitiveSet& primitives) {
+    return primitives.getType() >= osg::PrimitiveSet::DrawArraysPrimitiveType &&
+           primitives.getType() <= osg::PrimitiveSet::DrawElementsUIntPrimitiveType &&
+           primitives.getNumInstances() == 0;
+}
+
 bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
-    if (primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
+    if (!drawsAllIndices(primitives) || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (isOfPointsOrLines(mode)) {
         addPoints(primitives, triangles);
