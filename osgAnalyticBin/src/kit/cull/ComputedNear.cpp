@@ -150,7 +150,10 @@ const osg::Node* ComputedNear::addBeside(DepthSearch& search, const osg::NodePat
 bool ComputedNear::isPossible(osg::NodeVisitor& visitor, const osg::CullStack& cullStack) {
     const bool isCullVisitor =
         isExactly<osgUtil::CullVisitor>(visitor) || (visitor.asCullVisitor() && drawsAsCullVisitor(visitor));
-    return isCullVisitor && !cullStack.getClampProjectionMatrixCallback() &&
+    // OSG moves an oblique plane, and leaves it oblique
+    const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
+    const bool isOblique = projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
+    return isCullVisitor && !isOblique && !cullStack.getClampProjectionMatrixCallback() &&
            cullStack.getComputeNearFarMode() == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
 }
 
