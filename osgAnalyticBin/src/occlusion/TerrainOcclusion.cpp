@@ -264,6 +264,7 @@ std::optional<LeftOut> TerrainOcclusion::servedAhead(const View& view, const Lev
     if (!_ahead.valid()) return std::nullopt;
     FoundPtr ahead = _ahead.get();
     if (!ahead) return std::nullopt;
+    ahead->uses += _found->uses;
     ahead->shown.swap(_found->shown);
     const auto span = PictureSpan::of(lines, ahead->eye);
     std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
@@ -286,6 +287,7 @@ void TerrainOcclusion::searchAhead(const View& view, const LevelView& lines, con
     FoundPtr next = aimed(*_found, view, lines, spanThen);
     if (!next) return;
     next->nearReach = reachToBeginWith(view, lines, *next);
+    next->uses = -_found->uses;  // it grows old while the other one serves
     if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
 }
 
