@@ -31,12 +31,11 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
     if (!viewport || !eyeToWorld || !unproject.invert(projection)) return std::nullopt;
     const auto toWorld = [&](const osg::Vec3d& v) { return toGlm(osg::Matrixd::transform3x3(v, *eyeToWorld)); };
     LevelView view;
-    view.pixels = std::min(viewport->width(), viewport->height());
     const core::Geodetic place = ellipsoid.toGeodetic(eye);
     view.up = ellipsoid.up(place.latitude, place.longitude);
     const glm::dvec3 look = glm::normalize(toWorld({0.0, 0.0, -1.0}));
     const glm::dvec3 level = look - glm::dot(look, view.up) * view.up;
-    if (!(view.pixels > 0.0 && glm::length(level) > kLevel)) return std::nullopt;
+    if (!(glm::length(level) > kLevel)) return std::nullopt;
     view.forward = glm::normalize(level);
     view.depthStep = kDepthStep / (leastNear ? *leastNear : depthScaleOf(projection));
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
@@ -45,7 +44,10 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
         const osg::Vec3d ray(point.x(), point.y(), point.z());
         view.corners[i] = toWorld(ray / std::copysign(ray.z(), ray.z() * projection(2, 3)));
     }
-    return view;
+    const double width = glm::distance(view.corners[0], view.corners[1]);
+    const double height = glm::distance(view.corners[0], view.corners[2]);
+    view.pixels = std::min(width, height) / std::max(width / viewport->width(), height / viewport->height());
+    return view.pixels > 0.0 ? std::optional(view) : std::nullopt;
 }
 
 core::Frame LevelView::frameAt(const glm::dvec3& place) const {

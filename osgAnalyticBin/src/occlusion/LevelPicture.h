@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
@@ -19,17 +20,19 @@ namespace osgAnalyticBin {
 struct LevelView {
     glm::dvec3 up, forward;             ///< the eye's vertical, and where the camera looks, level; unit vectors
     std::array<glm::dvec3, 4> corners;  ///< from the eye, at depth 1 in eye space
-    double pixels;                      ///< the shorter side of the viewport
+    double pixels;                      ///< the shorter side of the viewport, in lengths of a pixel's longer side
     /// A depth buffer distinguishes two depths in eye space if their reciprocals differ by more than this.
     double depthStep;
 
     /// `leastNear`: where OSG computes the near plane later, no more than its depth is. Returns: nullopt for cameras
     /// that look up or down by more than 78 degrees, and those without a viewport.
-    [[nodiscard]] static std::optional<LevelView> of(osg::CullStack& cullStack, const core::Ellipsoid& ellipsoid,
-                                                     const glm::dvec3& eye, std::optional<double> leastNear);
+    [[nodiscard]] OSGANALYTICBIN_EXPORT static std::optional<LevelView> of(osg::CullStack& cullStack,
+                                                                           const core::Ellipsoid& ellipsoid,
+                                                                           const glm::dvec3& eye,
+                                                                           std::optional<double> leastNear);
 
     /// The axes of a picture of this view, with its eye at `place`.
-    [[nodiscard]] core::Frame frameAt(const glm::dvec3& place) const;
+    [[nodiscard]] OSGANALYTICBIN_EXPORT core::Frame frameAt(const glm::dvec3& place) const;
 };
 
 /// What a view shows of the picture on a vertical plane: x = right / forward.
@@ -42,7 +45,8 @@ struct PictureSpan {
     double depthStep;
 
     /// Returns: nullopt where a corner of the view is more than 78 degrees off the picture's forward direction.
-    [[nodiscard]] static std::optional<PictureSpan> of(const LevelView& view, const core::Frame& frame);
+    [[nodiscard]] OSGANALYTICBIN_EXPORT static std::optional<PictureSpan> of(const LevelView& view,
+                                                                             const core::Frame& frame);
 };
 
 }  // namespace osgAnalyticBin

@@ -113,15 +113,16 @@ std::size_t countInView(const FoundOcclusion& found, const std::vector<ShownTile
 }
 
 // How far ahead of the eye the near plane cuts something that is drawn at most, in metres along the forward axis of a
-// picture, if these tiles are left out.
+// picture, if these tiles are left out. That is at a corner of the view; an oblique plane is not as far at all of them.
 double reachOfNear(const TerrainHider::View& view, const LevelView& lines, const core::Frame& picture,
                    const std::vector<std::size_t>& hidden) {
-    double ahead = 0.0, toCorner = 0.0;  // of the corners of a plane at depth 1
+    double atDepth = 0.0, atDistance = 0.0;  // metres ahead of the corners of the view at depth 1 and at distance 1
     for (const glm::dvec3& corner : lines.corners) {
-        ahead = std::max(ahead, glm::dot(corner, picture.y));
-        toCorner = std::max(toCorner, glm::length(corner));
+        const double ahead = glm::dot(corner, picture.y);
+        atDepth = std::max(atDepth, ahead);
+        atDistance = std::max(atDistance, ahead / glm::length(corner));
     }
-    return ahead * (view.nearBound ? view.nearBound->most(hidden) : view.nearReach / toCorner);
+    return view.nearBound ? atDepth * view.nearBound->most(hidden) : atDistance * view.nearReach;
 }
 
 // By what factor the corners of a view may come forward, roughly, as far as the picture has room for a turn.
@@ -263,6 +264,7 @@ std::optional<LeftOut> TerrainOcclusion::servedAhead(const View& view, const Lev
     if (!_ahead.valid()) return std::nullopt;
     FoundPtr ahead = _ahead.get();
     if (!ahead) return std::nullopt;
+    ahead->uses += _found->uses;
     ahead->shown.swap(_found->shown);
     const auto span = PictureSpan::of(lines, ahead->eye);
     std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
@@ -285,6 +287,7 @@ void TerrainOcclusion::searchAhead(const View& view, const LevelView& lines, con
     FoundPtr next = aimed(*_found, view, lines, spanThen);
     if (!next) return;
     next->nearReach = reachToBeginWith(view, lines, *next);
+    next->uses = -_found->uses;  // it grows old while the other one serves
     if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
 }
 

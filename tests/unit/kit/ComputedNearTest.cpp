@@ -64,6 +64,14 @@ TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
     EXPECT_TRUE(planes.hidesFarTile());
 }
 
+// OSG moves an oblique plane along the look direction.
+TEST(ComputedNear, IsNotKnownOfAnObliquePlane) {
+    ComputedPlanes planes;
+    EXPECT_TRUE(planes.hidesFarTile());
+    planes.view.projection(0, 2) = 0.1;
+    EXPECT_FALSE(planes.hidesFarTile());
+}
+
 // A camera's own callback may draw anything, unless it is declared.
 TEST(ComputedNear, IsNotKnownBelowACameraWithACallback) {
     struct OwnCull : public osg::NodeCallback {

@@ -3,6 +3,7 @@
 //
 // Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
 
+#include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
 #include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
@@ -20,8 +21,10 @@
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/PolygonMode>
+#include <osg/PrimitiveSetIndirect>
 #include <osg/Program>
 #include <osg/Shader>
+#include <osg/Viewport>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
@@ -85,22 +88,63 @@ TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
     // where OSG chooses by pixels the kit does not know what it will choose
     far.setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
     EXPECT_TRUE(globe.drawsFarTile());
+    far.setRangeMode(osg::LOD::DISTANCE_FROM_EYE_POINT);
+    EXPECT_FALSE(globe.drawsFarTile());
+    globe.visitor->setTraversalMode(osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
+    EXPECT_TRUE(globe.drawsFarTile());
 }
 
-// Such as a sign in a file that adds to the tile's mesh.
+// Whether a tile behind the ridge, no higher than 500 m, is drawn with what is in a file that adds to its mesh.
+bool drawsBehindRidge(const osg::ref_ptr<osg::Node>& content) {
+    RidgeGlobe globe;
+    osg::PagedLOD& tile = *globe.row[4];
+    setStoredBin(tile, AnalyticBin(extentsDeg(0.0, 0.2, 0.8, 1.0).withAltitude({-12000.0, 500.0}), 10.0));
+    tile.setRange(0, 0.0f, 1e10f);
+    tile.setRange(1, 0.0f, 1e10f);
+    putBelow(tile, content);
+    installBins(*globe.root, withOcclusion());
+    return globe.draws(*content, RidgeGlobe::alongRow());
+}
+
+// Such as a sign, or a road that is drawn wider than its vertices reach.
 TEST(TerrainOcclusion, HidesNoTileBelowWhichSomethingIgnoresDepth) {
-    for (const bool ignores : {false, true}) {
-        RidgeGlobe globe;
-        const osg::ref_ptr<osg::Node> sign = makeTower(ecefDeg(0.1, 0.9, 100.0));
-        if (ignores) drawableOf(*sign)->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-        osg::PagedLOD& tile = *globe.row[4];
-        setStoredBin(tile, AnalyticBin(extentsDeg(0.0, 0.2, 0.8, 1.0).withAltitude({-12000.0, 500.0}), 10.0));
-        tile.setRange(0, 0.0f, 1e10f);
-        tile.setRange(1, 0.0f, 1e10f);
-        putBelow(tile, sign);
-        installBins(*globe.root, withOcclusion());
-        EXPECT_EQ(globe.draws(*sign, RidgeGlobe::alongRow()), ignores);
+    using Change = std::function<void(osg::Geometry&)>;
+    const auto draw = [](GLenum mode) -> Change {
+        return [mode](auto& geometry) { geometry.getPrimitiveSet(0)->setMode(mode); };
+    };
+    const auto set = [](osg::StateAttribute* attribute) -> Change {
+        return [attribute](auto& geometry) { geometry.getOrCreateStateSet()->setAttribute(attribute); };
+    };
+    const std::vector<Change> changes{
+        draw(GL_POINTS), draw(GL_LINE_STRIP),
+        set(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE)),
+        [](auto& geometry) { geometry.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }};
+    const auto makeSign = [] { return makeTower(ecefDeg(0.1, 0.9, 100.0)); };
+    EXPECT_FALSE(drawsBehindRidge(makeSign()));
+    for (const Change& change : changes) {
+        const osg::ref_ptr<osg::Node> sign = makeSign();
+        change(*drawableOf(*sign)->asGeometry());
+        EXPECT_TRUE(drawsBehindRidge(sign)) << &change - changes.data();
     }
+}
+
+// A tower on a leaf whose mesh alone would be hidden.
+TEST(TerrainOcclusion, HidesNoMeshByItsOwnHeightWhereMoreIsAdded) {
+    RidgeGlobe globe(3500.0);
+    const auto extents = extentsDeg(0, 0.2, 0.8, 1.0);
+    const osg::ref_ptr<osg::MatrixTransform> leaf = makeMeshTile(extents, 0.0);
+    setStoredBin(*leaf, AnalyticBin(extents.withAltitude({-12000.0, 9000.0}), 10.0));
+    globe.root->replaceChild(globe.row[4], leaf);
+    installBins(*globe.root, withOcclusion());
+    EXPECT_FALSE(globe.draws(*leaf, RidgeGlobe::alongRow()));
+    const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(ecefDeg(0.1, 0.9, 0.0), 8500.0f);
+    tower->setMatrix(tower->getMatrix() * osg::Matrixd::inverse(leaf->getMatrix()));
+    leaf->addChild(tower);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(*tower, RidgeGlobe::alongRow())) << i;
+        update(*globe.root);
+    }
+    EXPECT_GE(globe.counts().occluded, 1u) << "other tiles";
 }
 
 TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
@@ -246,6 +290,20 @@ struct Updater : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
 };
 
+// Nowhere near the ridge, beside the view.
+struct OwnBox : osg::Drawable::ComputeBoundingBoxCallback {
+    osg::BoundingBox computeBound(const osg::Drawable&) const override {
+        return {-1.0f, 9e6f, 9e6f, 1.0f, 10e6f, 10e6f};
+    }
+};
+
+void giveOwnBox(RidgeGlobe& globe) {
+    osg::Drawable& drawable = *drawableOf(*globe.row[2]);
+    drawable.setComputeBoundingBoxCallback(new OwnBox);
+    drawable.dirtyBound();
+    EXPECT_FALSE(globe.draws(*globe.row[2], RidgeGlobe::alongRow())) << "as without bins";
+}
+
 TEST(TerrainOcclusion, NeedsRidgesWithoutCallbacksOfTheApplication) {
     const auto draw = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->setDrawCallback(new NoDrawing); };
     const auto cull = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addCullCallback(new Updater); };
@@ -259,7 +317,8 @@ TEST(TerrainOcclusion, NeedsRidgesWithoutCallbacksOfTheApplication) {
         {"cull of the mesh", cullMesh},
         {"update of the mesh", updateMesh},
         {"update of the drawable", updateDrawable},
-        {"event of the drawable", handleEvents}};
+        {"event of the drawable", handleEvents},
+        {"a box", giveOwnBox}};
     for (const auto& [name, put] : ways) {
         RidgeGlobe globe;
         put(globe);
@@ -316,8 +375,14 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
         triangles.dirty();
         geometry.dirtyBound();
     };
-    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask,  remove,        outline,       flatten,
-                                                             lower, lowerVertices, giveTriangles, cutTriangles};
+    const auto addLevel = [](RidgeGlobe& globe) {
+        osg::PagedLOD& ridge = *globe.row[2];
+        ridge.setFileName(1, "");
+        ridge.setRange(0, 1e9f, 1e10f);
+        ridge.addChild(makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 0.0), 0.0f, 1e9f);
+    };
+    const std::vector<std::function<void(RidgeGlobe&)>> ways{
+        mask, remove, outline, flatten, lower, lowerVertices, giveTriangles, cutTriangles, addLevel, giveOwnBox};
     for (std::size_t i = 0; i < ways.size(); ++i) {
         RidgeGlobe globe;
         installBins(*globe.root, withOcclusion());
@@ -431,6 +496,30 @@ TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlight) {
         }
         EXPECT_LE(searches, 10) << altitude;
     }
+}
+
+// What was found ahead of need grows old before it is needed: meshes may have changed without a word.
+TEST(TerrainOcclusion, ServesNoViewsThatAreLongAfterItsSearch) {
+    // the views with which what is found anew begins to serve, of a camera that stops
+    const auto beginningsOf = [](int stop) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+        std::shared_ptr<const CoveredPicture> last;
+        std::vector<int> beginnings;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-4 * std::min(i, stop);
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, 1000.0), ecefDeg(0.1, east + 0.9, 1000.0), {1, 0, 0}, 30.0));
+            if (statistics.covered() != last) beginnings.push_back(i);
+            last = statistics.covered();
+        }
+        return beginnings;
+    };
+    // the first two searches are made when they are needed
+    const std::vector<int> moving = beginningsOf(200), stopped = beginningsOf(moving.at(2) - 1);
+    EXPECT_GT(stopped.at(2), moving[2] + 20);
+    EXPECT_LE(stopped.at(3), moving[2] + 64);
 }
 
 // The next search is made in another thread, and what is found is used when it is needed, not when it is ready.
@@ -588,6 +677,17 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     EXPECT_FALSE(pit.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 6000.0, 1e8);
     EXPECT_TRUE(pit.drawsFarTile(cutting));
+    // an oblique near plane that is so far on the left alone, of a view that reaches farther to the right; depths from
+    // 0
+    const auto cutOnTheLeft = [&cutting](double distance) {
+        cutting.projection = osg::Matrixd::frustum(-0.15, 1.0, -0.2, 0.2, 1.0, 1e8);
+        const osg::Vec4d plane(3.0, 0.0, -1.0, -0.55 * distance);
+        for (int row = 0; row < 4; ++row) cutting.projection(row, 2) = 0.25 * plane[static_cast<unsigned int>(row)];
+    };
+    cutOnTheLeft(500.0);
+    EXPECT_FALSE(pit.drawsFarTile(cutting));
+    cutOnTheLeft(6000.0);
+    EXPECT_TRUE(pit.drawsFarTile(cutting));
     // The depths of ridge and tile differ by three steps of a 24-bit depth buffer. A driver may draw either of them.
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 0.01, 1e8);
     EXPECT_TRUE(globe.drawsFarTile(cutting));
@@ -613,6 +713,24 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
                            osg::Matrixd::translate(0, 0, 0.5);
     EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
     EXPECT_FALSE(globe.drawsFarTile());
+}
+
+// Pixels may be higher than they are wide: the corners of triangles are snapped to shares of both.
+TEST(TerrainOcclusion, LeavesRoomForPixelsThatAreNotSquare) {
+    const CullView view = RidgeGlobe::alongRow();
+    const osg::Vec3d at = ecefDeg(0.1, 0.1, 1000.0);
+    const glm::dvec3 eye(at.x(), at.y(), at.z());
+    for (const auto& [columns, rows] : {std::pair(1000.0, 100.0), std::pair(100.0, 1000.0), std::pair(500.0, 500.0)}) {
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        visitor->pushViewport(new osg::Viewport(0, 0, columns, rows));
+        visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::frustum(-0.1, 0.1, -1.0, 1.0, 1.0, 1e6)));
+        visitor->pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
+        const auto lines = LevelView::of(*visitor, core::Ellipsoid(6378137.0, 6356752.3142), eye, {});
+        ASSERT_TRUE(lines);
+        const auto span = PictureSpan::of(*lines, lines->frameAt(eye));
+        ASSERT_TRUE(span);
+        EXPECT_GE(span->drawing, std::max(0.2 / columns, 2.0 / rows) / 128.0);
+    }
 }
 
 // A hundredth of the depth buffer's range has as many steps as the whole with the near plane a hundred times as near.
@@ -642,7 +760,14 @@ TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {
         }
         geometry.setPrimitiveSet(0, quads);
     };
-    const std::vector<std::function<void(osg::Geometry&)>> ways{cutHole, makeQuads};
+    // a command that draws none of them
+    const auto drawByCommand = [](osg::Geometry& geometry) {
+        const auto& all = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        const osg::ref_ptr<osg::DrawElementsIndirectUInt> indirect = new osg::DrawElementsIndirectUInt(GL_TRIANGLES);
+        indirect->assign(all.begin(), all.end());
+        geometry.setPrimitiveSet(0, indirect);
+    };
+    const std::vector<std::function<void(osg::Geometry&)>> ways{cutHole, makeQuads, drawByCommand};
     for (std::size_t i = 0; i < ways.size(); ++i) {
         for (const std::size_t tile : {std::size_t{2}, std::size_t{6}}) {
             RidgeGlobe globe;

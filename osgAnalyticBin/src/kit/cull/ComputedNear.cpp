@@ -38,7 +38,7 @@ bool isPlainGroup(const osg::Node& node) {
 
 }  // namespace
 
-// The farthest depth of nodes with all that is below them, whatever level of detail is shown.
+// The farthest depth of nodes with all that is below them.
 class ComputedNear::DepthSearch {
 public:
     // `selection`: of nodes that are asked for by themselves; null: none.
@@ -89,10 +89,29 @@ public:
         osg::Matrixd inside = toEye;
         if (const osg::Transform* const transform = node.asTransform())
             transform->computeLocalToWorldMatrix(inside, &_visitor);
+        if (isOneOf<osg::LOD, osg::PagedLOD>(node) && inside == *_visitor.getModelViewMatrix())
+            return addLevels(static_cast<osg::LOD&>(node), inside);
         return addChildren(*node.asGroup(), inside, nullptr);
     }
 
 private:
+    // Those that OSG chooses, where it measures distances in the visitor's present frame.
+    [[nodiscard]] bool addLevels(osg::LOD& node, const osg::Matrixd& toEye) {
+        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT &&
+                                _visitor.getTraversalMode() == osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN;
+        if (!byDistance) return addChildren(node, toEye, nullptr);
+        const float range = _visitor.getDistanceToViewPoint(node.getCenter(), true);
+        const unsigned int children = node.getNumChildren();
+        bool isOneAwaited = false;
+        for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+            if (range < node.getMinRange(i) || range >= node.getMaxRange(i)) continue;
+            isOneAwaited = isOneAwaited || i >= children;
+            if (i < children && !add(*node.getChild(i), toEye)) return false;
+        }
+        // the last child stands in for one that is awaited
+        return !isOneAwaited || children == 0 || add(*node.getChild(children - 1), toEye);
+    }
+
     void addBox(const osg::BoundingBox& box, const osg::Matrixd& toEye) {
         if (box.valid()) _farthest = std::max(_farthest, farthestDepth(box, toEye));
     }
@@ -150,7 +169,10 @@ const osg::Node* ComputedNear::addBeside(DepthSearch& search, const osg::NodePat
 bool ComputedNear::isPossible(osg::NodeVisitor& visitor, const osg::CullStack& cullStack) {
     const bool isCullVisitor =
         isExactly<osgUtil::CullVisitor>(visitor) || (visitor.asCullVisitor() && drawsAsCullVisitor(visitor));
-    return isCullVisitor && !cullStack.getClampProjectionMatrixCallback() &&
+    // OSG moves an oblique plane, and leaves it oblique
+    const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
+    const bool isOblique = projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
+    return isCullVisitor && !isOblique && !cullStack.getClampProjectionMatrixCallback() &&
            cullStack.getComputeNearFarMode() == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
 }
 

@@ -24,8 +24,8 @@ namespace osgAnalyticBin {
 /// Source: doc/theory/occlusion.md, section 5.
 class ComputedNear final : public NearPlaneBound {
 public:
-    /// Whether OSG computes the planes in a way that has a bound: from the boxes of drawables, without a callback of
-    /// the application's.
+    /// Whether OSG computes the planes in a way that has a bound: from the boxes of drawables, straight across the look
+    /// direction, without a callback of the application's.
     [[nodiscard]] static bool isPossible(osg::NodeVisitor& visitor, const osg::CullStack& cullStack);
 
     /// Looks through everything that is drawn with the visitor's present projection. `selection`: of the database at

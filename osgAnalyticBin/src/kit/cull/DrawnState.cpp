@@ -235,7 +235,9 @@ bool isKnownGroup(const osg::Node& node) {
 
 DrawnState ofDrawable(const osg::Drawable& drawable) {
     if (drawable.getDrawCallback()) return kUnknown;
-    return isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) ? kHarmless : kUnknown;
+    if (!isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable)) return kUnknown;
+    // OSG may leave out what is not in a box of the application's
+    return drawable.getComputeBoundingBoxCallback() ? kHidesNothing : kHarmless;
 }
 
 DrawnState ofClass(const osg::Node& node) {

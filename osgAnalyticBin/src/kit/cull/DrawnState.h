@@ -22,8 +22,8 @@ namespace osgAnalyticBin {
 struct DrawnState {
     /// Front faces are drawn whole and opaque, back faces too or not, at the depths of their vertices.
     bool hides = true;
-    /// Nothing is drawn where something nearer is, and nothing beside the triangles of the vertices, as lines and points
-    /// are: what hides the triangles hides all.
+    /// Nothing is drawn where something nearer is, and nothing beside the triangles of the vertices, as lines and
+    /// points are: what hides the triangles hides all.
     bool obeysDepth = true;
     /// OSG may cull it: osg::Node::setCullingActive() has not switched that off, as it is for light sources and
     /// absolute transforms.

@@ -305,7 +305,9 @@ bool FamilyTile::isBareMesh(const osg::NodeVisitor& visitor) const {
                             !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
                             !node.getEventCallback();
         if (!isBare || (kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(node)))) return false;
-        if (kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback()) return false;
+        if (kind != Kind::Geometry) continue;
+        const auto& drawable = static_cast<const osg::Drawable&>(node);
+        if (drawable.getDrawCallback() || drawable.getComputeBoundingBoxCallback()) return false;
     }
     return part(0) != nullptr;
 }

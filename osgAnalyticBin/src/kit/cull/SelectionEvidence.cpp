@@ -107,7 +107,8 @@ void SelectionWalk::searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile
 
 // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
 void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
-    const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef;
+    const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef &&
+                            _visitor.getTraversalMode() == osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN;
     const Scoped unknown(_isChoiceUnknown, _isChoiceUnknown || !byDistance);
     const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
     const unsigned int children = node.getNumChildren();
@@ -158,8 +159,8 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     if (isLeftOutInView(tile, mesh)) doubt();
     if (_isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
     const bool isSure = !_isChoiceUnknown && tile.isFitted;
-    _selection.addShown(
-        {&tile.callback, &mesh, tile.member, isSure, isOnlyLevel, tile.isOutOfView, tile.kept, _segment});
+    const bool isAll = isOnlyLevel && !(installed && installed->has(InstalledTile::MoreThanMesh));
+    _selection.addShown({&tile.callback, &mesh, tile.member, isSure, isAll, tile.isOutOfView, tile.kept, _segment});
     // what a tile draws by itself is in its bin
     if (tile.isFitted && tile.numbers.altitude.lower >= -_depth) return;
     const double own = tile.isFitted ? -surfaceOf(tile).lower : std::numeric_limits<double>::infinity();

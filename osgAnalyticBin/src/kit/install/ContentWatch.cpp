@@ -247,16 +247,27 @@ osg::BoundingSphere scaledTerrainOf(const osg::Node& node) {
     return movedSphere(sphere, osg::Matrixd::inverse(tile->getLocalToEcef()));
 }
 
+// The node with the bin of the tile that a watched node belongs to. Returns: nullptr where it belongs to none.
+const osg::Node* culledNodeOf(const osg::Node& node) {
+    const osg::Node* const culled = installedTileOf(node) ? &node : carrierOf(const_cast<osg::Node&>(node));
+    return culled && installedTileOf(*culled) ? culled : nullptr;
+}
+
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
 // anew. `isMoved`: the mesh has left its place, which may be empty now.
 void doubtMeshOf(const osg::Node& node, bool isMoved) {
-    const osg::Node* culled = &node;
-    if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
-    InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
-    if (!tile) return;
+    const osg::Node* const culled = culledNodeOf(node);
+    if (!culled) return;
     using Tile = InstalledTile;
-    tile->doubt(Tile::MeshUnread | Tile::MeshChanged | Tile::NotFilled | (isMoved ? Tile::MeshMoved : 0u));
-    for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
+    InstalledTile& tile = *installedTileOf(*culled);
+    tile.doubt(Tile::MeshUnread | Tile::MeshChanged | Tile::NotFilled | (isMoved ? Tile::MeshMoved : 0u));
+    for (osg::Group* const parent : culled->getParents()) tile.database().noteChanged(*parent);
+}
+
+// Says that the tile draws something beside its mesh.
+void noteMoreThanMesh(const osg::Node& node) {
+    if (const osg::Node* const culled = culledNodeOf(node))
+        installedTileOf(*culled)->doubt(InstalledTile::MoreThanMesh);
 }
 
 // The application has replaced the watch of a tile: the next update places it anew.
@@ -389,7 +400,9 @@ void ContentWatch::check(const osg::Node& node) const {
         if (!isInScene) isInScene = isMerged(node);
         return *isInScene;
     };
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
     std::size_t fitted = 0;
+    bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
@@ -403,10 +416,14 @@ void ContentWatch::check(const osg::Node& node) const {
             continue;
         }
         doubtLevel(node, i, _tile);
-        if (sphere.valid() || isNeverCulled(child))
-            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        if (!sphere.valid() && !isNeverCulled(child)) continue;
+        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        hasMore = hasMore || (isMergedNow() && (!paged || !isPaged(*paged, i)));
     }
-    if (group && fitted < _fitted.size() && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    // a level may be shown in place of those that were read
+    const bool isOther = fitted < _fitted.size() || (paged && hasMore);
+    if (group && isOther && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    if (hasMore) noteMoreThanMesh(node);
     if (group || _fitted.empty() || isFitted(node, true)) return;
     // an osgTerrain tile that has other heights
     fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));

@@ -122,11 +122,15 @@ void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vecto
     }
 }
 
+// Others may draw a part of their indices, by commands, or several strips one after the other.
+bool drawsAllIndices(const osg::PrimitiveSet& primitives) {
+    return primitives.getType() >= osg::PrimitiveSet::DrawArraysPrimitiveType &&
+           primitives.getType() <= osg::PrimitiveSet::DrawElementsUIntPrimitiveType &&
+           primitives.getNumInstances() == 0;
+}
+
 bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
-    // of several drawings at once, and of those that buffers tell, the indices alone do not say what is drawn
-    const bool isPlain = primitives.getType() != osg::PrimitiveSet::PrimitiveType &&
-                         primitives.getType() <= osg::PrimitiveSet::DrawElementsUIntPrimitiveType;
-    if (!isPlain || primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
+    if (!drawsAllIndices(primitives) || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (isOfPointsOrLines(mode)) {
         addPoints(primitives, triangles);

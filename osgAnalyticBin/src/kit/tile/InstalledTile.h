@@ -59,6 +59,8 @@ public:
         IgnoresDepth = 1u << 9,
         /// The application has switched off culling for the tile's mesh, or for something below it: never culled.
         NeverCulled = 1u << 10,
+        /// Content stands in the tile beside the mesh that was read, and may be higher.
+        MoreThanMesh = 1u << 11,
     };
 
     /// Where a tile lies, for the tiles below it.
@@ -122,8 +124,11 @@ public:
     }
     /// Whether the horizon must not rely on the tile.
     [[nodiscard]] bool isSeeThrough() const { return has(SeeThrough | MeshMoved); }
-    /// Whether the mesh fills its place and cannot be seen through, is as it was, and levels below leave no gap.
-    [[nodiscard]] bool isCertain() const { return !has(NotFilled | SeeThrough | MeshMoved | MeshChanged | GapBelow); }
+    /// Whether the mesh fills its place and cannot be seen through, is as it was, and all that the tile draws by
+    /// itself, and levels below leave no gap.
+    [[nodiscard]] bool isCertain() const {
+        return !has(NotFilled | SeeThrough | MeshMoved | MeshChanged | GapBelow | MoreThanMesh);
+    }
 
     /// Has OSG test no sphere of the node before its callbacks, until restoreSphere(): what the sphere does not hold
     /// may be in view.
