@@ -143,8 +143,8 @@ TEST(HugeScenes, TilesMayBeDeep) {
     }
 }
 
-// A million groups (fewer with the address sanitizer), and as many tiles as fit into some seconds. They share vertices and no nodes: OSG tells every
-// parent of a node that its culling changes.
+// A million groups (fewer with the address sanitizer), and as many tiles as fit into some seconds. They share vertices
+// and no nodes: OSG tells every parent of a node that its culling changes.
 TEST(HugeScenes, MayBeAMillionWide) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(new osg::EllipsoidModel);
