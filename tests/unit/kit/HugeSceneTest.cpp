@@ -25,9 +25,11 @@ namespace {
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kDeep = 1500;  // each call takes several times the stack
 constexpr int kWide = 2000;
+constexpr int kGroups = 100000;
 #else
 constexpr int kDeep = 10000;
 constexpr int kWide = 20000;
+constexpr int kGroups = 1000000;
 #endif
 
 // Nodes each below the one before, the scene at the end. They are taken apart one by one: OSG would do so recursively.
@@ -141,14 +143,14 @@ TEST(HugeScenes, TilesMayBeDeep) {
     }
 }
 
-// A million groups, and as many tiles as fit into some seconds. They share vertices and no nodes: OSG tells every
-// parent of a node that its culling changes.
+// A million groups (fewer with the address sanitizer), and as many tiles as fit into some seconds. They share vertices
+// and no nodes: OSG tells every parent of a node that its culling changes.
 TEST(HugeScenes, MayBeAMillionWide) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(new osg::EllipsoidModel);
     WatchedMesh watched;
     const osg::ref_ptr<osg::Group> wide = new osg::Group;
-    for (int i = 0; i < 1000000; ++i) wide->addChild(new osg::Group);
+    for (int i = 0; i < kGroups; ++i) wide->addChild(new osg::Group);
     for (int i = 0; i < kWide; ++i) wide->addChild(makePaged(watched.another(), "none.osgb"));
     const osg::ref_ptr<osg::PagedLOD> above = makePaged(watched.mesh, "none.osgb");
     putBelow(*above, wide);

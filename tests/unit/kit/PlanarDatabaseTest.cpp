@@ -66,12 +66,6 @@ std::vector<osg::Vec3d> pointsOf(osg::Drawable& drawable) {
     return points;
 }
 
-bool isSeen(const std::vector<osg::Vec3d>& points, const std::vector<osg::Plane>& planes) {
-    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
-        return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& p) { return p.distance(point) > 0.0; });
-    });
-}
-
 // Over the map, beside it or below it; perspective or orthographic.
 CullView randomView(test::Random& random, const PlanarMap& map) {
     const auto place = [&](double beside) {
@@ -104,7 +98,7 @@ std::size_t checkKept(const Shown& shown, const std::set<osg::Drawable*>& kept, 
     const std::vector<osg::Plane> planes = view.sidePlanes();
     std::size_t number = 0;
     for (const auto& [drawable, points] : shown) {
-        if (!isSeen(points, planes)) continue;
+        if (!test::holdAny(planes, points)) continue;
         ++number;
         EXPECT_TRUE(kept.count(drawable));
     }
