@@ -37,21 +37,22 @@ struct TileSurface {
 /// The surface of a tile's own mesh: an osgTerrain::TerrainTile (read, neither traversed nor changed) as
 /// osgTerrain::GeometryTechnique draws it, or any subgraph of fixed transforms and geometry. Children of LODs and
 /// switches all count, whatever is chosen. Each drawable of a billboard is taken as a cube about its position, large
-/// enough for every rotation. What its vertices do not tell is as large as its bound: a drawable with a draw callback,
-/// with a bound that the application gives, or of a class of its own, and a node of any class without children. Below a
-/// paged or moving node nothing is known: not valid(); neither on an ellipsoid without hasValidRadii() that is not
-/// mapPlane(), nor where a matrix is not affine. In a map, where `ellipsoid` is mapPlane(), an osgTerrain tile is one
-/// whose locator is not geocentric. `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is
-/// osgTerrain::Terrain's. A terrain tile of another class, or that already has another technique, is not valid(),
-/// unless `withAnyTechnique` is set: its surface is then the one that GeometryTechnique would make. Skirts are
-/// recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of doubt they
-/// count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain: not
-/// valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper one
-/// is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() where its
-/// chords may sag below the centres of curvature, which only those of wide cells on flat ellipsoids do. Guarantee: on
-/// any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out, and of
-/// terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half the
-/// smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
+/// enough for every rotation. What vertices do not tell is as large as its bound: a drawable with a draw callback, with
+/// a bound that the application gives, or of a class of its own, and a node of any class without children.
+/// Below a paged or moving node nothing is known: not valid(); neither on an ellipsoid without hasValidRadii() that is
+/// not mapPlane(), nor where a matrix is not affine.
+/// In a map, where `ellipsoid` is mapPlane(), an osgTerrain tile is one whose locator is not geocentric.
+/// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
+/// A terrain tile of another class, or that already has another technique, is not valid(), unless `withAnyTechnique` is
+/// set: its surface is then the one that GeometryTechnique would make.
+/// Skirts are recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of
+/// doubt they count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain:
+/// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper
+/// one is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() where
+/// its chords may sag below the centres of curvature, which only those of wide cells on flat ellipsoids do.
+/// Guarantee: on any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
+/// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
+/// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
 /// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges, which are not in
 /// here.
 /// Cost: one pass over heights or vertices and triangles.
