@@ -42,7 +42,7 @@ bool hasDisplay() {
 Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment) {
     return runStock(
         "sh " + quoted(DISPLAY_SCRIPT) + " timeout " + std::to_string(seconds) + " env " + environment + ' ' + command,
-        Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
+        Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=0 ASAN_OPTIONS=detect_leaks=0");
 }
 
 bool canRunViewer() {
