@@ -6,6 +6,7 @@
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
+#include "RidgeGlobe.h"
 #include "TileFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
@@ -76,12 +77,6 @@ struct TerrainGlobe {
     osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     unsigned int frame = 0;
 };
-
-CullOptions withOcclusion(OcclusionUse use) {
-    CullOptions options;
-    options.occlusion = use;
-    return options;
-}
 
 TEST(OccludingTerrainTiles, HideWhatIsBehindARidge) {
     TerrainGlobe globe;

@@ -16,9 +16,9 @@
 
 namespace osgAnalyticBin::test {
 
-inline CullOptions withOcclusion() {
+inline CullOptions withOcclusion(OcclusionUse use = OcclusionUse::On) {
     CullOptions options;
-    options.occlusion = OcclusionUse::On;
+    options.occlusion = use;
     return options;
 }
 

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What was found behind a ridge serves the next views, and never longer than it holds.
+
+#include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
+#include "RidgeGlobe.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// What was found serves the next views as well. It must not outlast the place that it was found for.
+TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
+    // the lowest eye that sees the tile behind the ridge, by what is found for one view alone
+    double lowest = 1000.0, highest = 40000.0;
+    while (highest > 1.0001 * lowest) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const double middle = 0.5 * (lowest + highest);
+        (globe.drawsFarTile(RidgeGlobe::alongRow(middle)) ? highest : lowest) = middle;
+    }
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    for (const double step : {1.0, 5.0, 20.0, 60.0, 200.0, 500.0}) {
+        for (int start = 0; start < 20; ++start) {
+            for (int i = 0; i < 20; ++i) {
+                const double altitude = highest + (0.5 + i - 10 - 0.05 * start) * step;
+                const bool isDrawn = globe.drawsFarTile(RidgeGlobe::alongRow(altitude));
+                EXPECT_TRUE(isDrawn || altitude < 1.002 * highest) << altitude << " by steps of " << step;
+                // not much is lost by looking ahead
+                EXPECT_TRUE(!isDrawn || altitude > 0.8 * highest) << altitude << " by steps of " << step;
+            }
+        }
+    }
+}
+
+TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
+    // beside the row: the ridge covers only the northern part of the tile behind it
+    const auto turned = [](double north) {
+        return CullView::lookAt(ecefDeg(-0.1, 0.1, 1000.0), ecefDeg(-0.1 + north, 1.1, 1000.0), {1, 0, 0}, 8.0);
+    };
+    for (const double step : {0.002, 0.01, 0.04}) {
+        // few tiles, so that all views show the same
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        double north = 0.28;
+        EXPECT_FALSE(globe.drawsFarTile(turned(north)));
+        for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
+        EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
+    }
+}
+
+// Compares a camera that turns with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
+    Random random(1712);
+    int hidden = 0;
+    for (int flight = 0; flight < 20; ++flight) {
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        const double fov = random.uniform(2.0, 12.0), start = random.uniform(-0.2, 0.4);
+        double north = random.uniform(-0.2, 0.4);
+        for (int i = 0; i < 20; ++i) {
+            north += random.sign() * random.logUniform(1e-4, 0.1);
+            const CullView view =
+                CullView::lookAt(ecefDeg(start, 0.1, 1000.0), ecefDeg(start + north, 1.1, 1000.0), {1, 0, 0}, fov);
+            if (globe.drawsFarTile(view)) continue;
+            RidgeGlobe alone(8000.0, 5);
+            installBins(*alone.root, withOcclusion());
+            EXPECT_FALSE(alone.drawsFarTile(view)) << "flight " << flight << ", view " << i;
+            hidden += alone.counts().occluded > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hidden, 50);
+}
+
+// A search takes longer than all other culling.
+TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlight) {
+    for (const double altitude : {200.0, 1000.0, 1717.0}) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+        std::shared_ptr<const CoveredPicture> last;
+        int searches = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-5 * i;
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0));
+            searches += statistics.covered() != last ? 1 : 0;
+            last = statistics.covered();
+        }
+        EXPECT_LE(searches, 10) << altitude;
+    }
+}
+
+// What was found ahead of need grows old before it is needed: meshes may have changed without a word.
+TEST(TerrainOcclusion, ServesNoViewsThatAreLongAfterItsSearch) {
+    // the views with which what is found anew begins to serve, of a camera that stops
+    const auto beginningsOf = [](int stop) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+        std::shared_ptr<const CoveredPicture> last;
+        std::vector<int> beginnings;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-4 * std::min(i, stop);
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, 1000.0), ecefDeg(0.1, east + 0.9, 1000.0), {1, 0, 0}, 30.0));
+            if (statistics.covered() != last) beginnings.push_back(i);
+            last = statistics.covered();
+        }
+        return beginnings;
+    };
+    // the first two searches are made when they are needed
+    const std::vector<int> moving = beginningsOf(200), stopped = beginningsOf(moving.at(2) - 1);
+    EXPECT_GT(stopped.at(2), moving[2] + 20);
+    EXPECT_LE(stopped.at(3), moving[2] + 64);
+}
+
+// The next search is made in another thread, and what is found is used when it is needed, not when it is ready.
+TEST(TerrainOcclusion, IsTheSameInEachFlight) {
+    const auto hiddenInFlight = [] {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        std::vector<unsigned int> hidden;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-5 * i, north = 0.1 + 2e-4 * i;
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, 500.0 + i), ecefDeg(north, 1.0, 500.0), {1, 0, 0}, 30.0));
+            hidden.push_back(globe.counts().occluded);
+        }
+        return hidden;
+    };
+    const std::vector<unsigned int> first = hiddenInFlight();
+    EXPECT_GT(*std::max_element(first.begin(), first.end()), 0u);
+    EXPECT_EQ(hiddenInFlight(), first);
+}
+
+// Compares a flight over tiles that leave the view one after the other with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
+    RidgeGlobe globe(8000.0, 5);
+    installBins(*globe.root, withOcclusion());
+    int hidden = 0;
+    for (int i = 0; i < 400; ++i) {
+        const double east = 0.05 + 7e-4 * i, altitude = 1000.0 + 5.0 * i;
+        const CullView view =
+            CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0);
+        const bool isDrawn = globe.drawsFarTile(view);
+        if (i % 8 != 0) continue;
+        RidgeGlobe alone(8000.0, 5);
+        installBins(*alone.root, withOcclusion());
+        const bool isDrawnAlone = alone.drawsFarTile(view);
+        hidden += isDrawnAlone ? 0 : 1;
+        EXPECT_TRUE(isDrawn || !isDrawnAlone) << "view " << i;
+    }
+    EXPECT_GT(hidden, 20);
+}
+
+TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
+    using Finding = FoundOcclusion::Finding;
+    const core::Ellipsoid ellipsoid(6378137.0, 6356752.3142);
+    // the half-space north of the equator
+    core::PlaneSet view;
+    view.push_back({{0.0, 0.0, 1.0}, 0.0});
+    std::uint64_t plates = 0;
+    const auto tile = [&](double south, double north, double margin = 0.0) {
+        return FoundOcclusion::Tile{nullptr, nullptr, true, ++plates, extentsDeg(south, north, 1, 2),
+                                    margin,  0.0,     10.0};
+    };
+    FoundOcclusion first;
+    first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
+    first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
+    // from the south, looking north
+    first.eye = {{7e6, 0.0, -5e6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
+    first.nearReach = 1000.0;
+    first.earth.emplace(7e6, core::Interval{-1.0, 1.0});
+    // numbers: of the first tiles
+    const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
+                              const std::vector<FoundOcclusion::Tile>& come = {}) {
+        FoundOcclusion found = from;
+        for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
+        found.shown.insert(found.shown.end(), come.begin(), come.end());
+        const bool holds = found.follow(view, ellipsoid);
+        EXPECT_EQ(found.tiles.size(), found.findings.size());
+        EXPECT_EQ(found.tiles == found.shown, holds);
+        for (std::size_t i = 0; holds && i < found.tiles.size(); ++i)
+            EXPECT_EQ(found.findings[i], i < shown.size() ? from.findings[shown[i]] : Finding::Seen);
+        return holds;
+    };
+    EXPECT_TRUE(outlasts({0, 2, 3}, first));
+    EXPECT_TRUE(outlasts({0, 1, 3}, first));
+    EXPECT_TRUE(outlasts({0, 3}, first));
+    EXPECT_FALSE(outlasts({1, 2, 3}, first));
+    EXPECT_FALSE(outlasts({0, 1, 2}, first));
+    // what may reach into the view by its margin, or by the bulge of its sides
+    for (const auto& near : {tile(-1, -0.001, 200.0), tile(-1, 1e-4)}) {
+        FoundOcclusion reaching = first;
+        reaching.tiles[2] = near;
+        EXPECT_FALSE(outlasts({0, 1, 3}, reaching));
+    }
+    // others come: beside what has gone out of view, or in its place
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, first, {tile(5, 6)}));
+    EXPECT_TRUE(outlasts({0, 1, 3}, first, {tile(-2, 1)}));
+    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(-4, 1)}));
+    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(5, 6), tile(-2.1, 1)}));
+    EXPECT_FALSE(outlasts({1, 2, 3}, first, {tile(1, 1.5)}));
+    // in views that follow, too
+    FoundOcclusion later = first;
+    later.shown = {first.tiles[0], first.tiles[3]};
+    EXPECT_TRUE(later.follow(view, ellipsoid));
+    later.shown.clear();
+    EXPECT_FALSE(outlasts({0, 1}, later, {tile(-4, 1)}));
+    EXPECT_TRUE(outlasts({0, 1}, later, {tile(-2, 1)}));
+    // too near for what is known of the near plane
+    FoundOcclusion close = first;
+    const auto standAt = [&close](double north, double east) {
+        const osg::Vec3d above = ecefDeg(north, east, 2000.0);
+        close.eye.origin = {above.x(), above.y(), above.z()};
+    };
+    standAt(5.5, 1.5);
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(5, 6)}));
+    close.eyes = {0.0, 300e3, 0.0};
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    // the near plane cuts as far ahead on the sides of the picture as in the middle, and nothing beside it
+    close.eyes = {0.0, 0.0, 0.0};
+    close.nearReach = 300e3;
+    standAt(5.5, -1.2);
+    EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+    close.earth.emplace(7e6, core::Interval{-0.1, 0.1});
+    EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+}
+
+// As a camera turns, corners of its view come forward, and so does what the near plane may cut.
+TEST(TerrainOcclusion, ServesManyViewsOfATurn) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+    std::shared_ptr<const CoveredPicture> last;
+    int searches = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double north = 0.05 - 1e-3 * i;
+        (void)globe.drawsFarTile(
+            CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1 + north, 1.0, 1000.0), {1, 0, 0}, 30.0));
+        searches += statistics.covered() != last ? 1 : 0;
+        last = statistics.covered();
+    }
+    EXPECT_LE(searches, 40);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
