@@ -5,6 +5,7 @@
 
 #include "../Classes.h"
 #include "../Inverse.h"
+#include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "CullCallbacks.h"
 #include "DrawnDepth.h"
@@ -89,22 +90,20 @@ public:
         osg::Matrixd inside = toEye;
         if (const osg::Transform* const transform = node.asTransform())
             transform->computeLocalToWorldMatrix(inside, &_visitor);
-        if (isOneOf<osg::LOD, osg::PagedLOD>(node) && inside == *_visitor.getModelViewMatrix())
+        if (isOneOf<osg::LOD, osg::PagedLOD>(node) && inside == *_visitor.getModelViewMatrix() &&
+            choosesByDistance(static_cast<osg::LOD&>(node), _visitor))
             return addLevels(static_cast<osg::LOD&>(node), inside);
         return addChildren(*node.asGroup(), inside, nullptr);
     }
 
 private:
-    // Those that OSG chooses, where it measures distances in the visitor's present frame.
+    // Adds the levels that OSG shows. Requires: OSG measures distances in the visitor's present frame.
     [[nodiscard]] bool addLevels(osg::LOD& node, const osg::Matrixd& toEye) {
-        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT &&
-                                _visitor.getTraversalMode() == osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN;
-        if (!byDistance) return addChildren(node, toEye, nullptr);
         const float range = _visitor.getDistanceToViewPoint(node.getCenter(), true);
         const unsigned int children = node.getNumChildren();
         bool isOneAwaited = false;
         for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
-            if (range < node.getMinRange(i) || range >= node.getMaxRange(i)) continue;
+            if (!isInRange(node, i, range)) continue;
             isOneAwaited = isOneAwaited || i >= children;
             if (i < children && !add(*node.getChild(i), toEye)) return false;
         }

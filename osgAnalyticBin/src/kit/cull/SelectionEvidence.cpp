@@ -41,6 +41,12 @@ bool mayChange(const osg::Node& part) {
     return part.getUpdateCallback() || part.getEventCallback();
 }
 
+// Whether the frame inside a node depends on the frame of its parent.
+bool standsBelowParent(const osg::Node& node) {
+    const osg::Transform* const transform = node.asTransform();
+    return !transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF;
+}
+
 // Whether a node is no osgTerrain tile that has lost its technique.
 bool isDrawnByTechnique(const osg::Node& node) {
     if (!isOneOf<osgTerrain::TerrainTile>(node)) return true;
@@ -67,8 +73,7 @@ void SelectionWalk::searchNode(osg::Node& node) {
     const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
     const DrawnState drawn = stateOf(node);
     const bool isDrawn = _visitor.validNodeMask(node) && !callbacks.mayLeaveOut && drawn.hides &&
-                         (isGroup || drawsAllChildren(node)) &&
-                         !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
+                         (isGroup || drawsAllChildren(node)) && standsBelowParent(node);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
     const bool isTooSmall = !_isBelowOutOfView && isSmallFeature(node);
@@ -107,14 +112,11 @@ void SelectionWalk::searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile
 
 // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
 void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
-    const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef &&
-                            _visitor.getTraversalMode() == osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN;
+    const bool byDistance = !_toEcef && choosesByDistance(node, _visitor);
     const Scoped unknown(_isChoiceUnknown, _isChoiceUnknown || !byDistance);
     const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
     const unsigned int children = node.getNumChildren();
-    const auto isDue = [&](unsigned int i) {
-        return !byDistance || (range >= node.getMinRange(i) && range < node.getMaxRange(i));
-    };
+    const auto isDue = [&](unsigned int i) { return !byDistance || isInRange(node, i, range); };
     unsigned int due = 0;
     bool isOwnShown = false;  // whatever else is shown then adds to it, and need not cover anything
     for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
@@ -223,9 +225,7 @@ bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const
     const StateRules& rules = _selected.view.rules;
     // other classes, and their parts, were asked for when bins were installed
     const DrawnState drawn = node.asDrawable() ? drawnStateByClass(node, rules) : drawnStateOf(node, rules);
-    const osg::Transform* const transform = node.asTransform();
-    const bool isInPlace = !transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF;
-    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && isInPlace;
+    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && standsBelowParent(node);
 }
 
 // Whether all of a tile's own mesh is drawn.

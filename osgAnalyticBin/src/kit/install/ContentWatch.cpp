@@ -278,12 +278,10 @@ void keepUnwatchedVisible(const osg::Node& node) {
     if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 
-// What others have read in the place of a tile's mesh may leave a gap there.
-void doubtLevel(const osg::Node& node, unsigned int child, InstalledTile* tile) {
-    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
-    if (!tile || !paged || !isPaged(*paged, child)) return;
-    const InstalledDatabase& database = tile->database();
-    if (!areVouchedFor(Database::of(*tile).options(), *database.ellipsoid())) tile->doubt(InstalledTile::GapBelow);
+// A level that others have read in the place of the tile's mesh may leave a gap there.
+void doubtLevelsOf(InstalledTile& tile) {
+    const InstalledDatabase& database = tile.database();
+    if (!areVouchedFor(Database::of(tile).options(), *database.ellipsoid())) tile.doubt(InstalledTile::GapBelow);
 }
 
 // Whether OSG culls neither the node nor anything above it, as with light sources and absolute transforms.
@@ -415,10 +413,11 @@ void ContentWatch::check(const osg::Node& node) const {
             ++fitted;
             continue;
         }
-        doubtLevel(node, i, _tile);
+        const bool isLevel = paged && isPaged(*paged, i);
+        if (isLevel && _tile) doubtLevelsOf(*_tile);
         if (!sphere.valid() && !isNeverCulled(child)) continue;
         fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
-        hasMore = hasMore || (isMergedNow() && (!paged || !isPaged(*paged, i)));
+        hasMore = hasMore || (!isLevel && isMergedNow());
     }
     // a level may be shown in place of those that were read
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);

@@ -31,8 +31,8 @@ public:
         if (_depth > kDeepest || !staysInPlace(node)) return add(MeshBox::boundless());
         if (osg::Drawable* const drawable = node.asDrawable()) return add(boxOf(*drawable));
         if (isOneOf<osg::LOD, osg::PagedLOD>(node)) return visitLod(static_cast<osg::LOD&>(node));
-        if (const osg::Transform* const transform = node.asTransform(); transform && hasFixedPlace(*transform))
-            return visitTransform(*node.asTransform());
+        osg::Transform* const transform = node.asTransform();
+        if (transform && hasFixedPlace(*transform)) return visitTransform(*transform);
         if (!isOneOf<osg::Group, osg::Geode, osg::Switch>(node)) return add(MeshBox::boundless());
         if (isOneOf<osg::Group>(node)) content.groups.push_back({node.asGroup(), _lod});
         visitChildren(*node.asGroup());
