@@ -40,7 +40,7 @@ bool meets(const Triangle& t, const osg::Vec3d& from, const osg::Vec3d& along) {
     return at > 0.0 && at < kNearlyThere;
 }
 
-// What is left of a polygon, in clip coordinates, on the inner side of an edge of the picture.
+// Clips a polygon in clip coordinates against one side of the picture.
 std::vector<osg::Vec4d> clipped(const std::vector<osg::Vec4d>& polygon, const osg::Vec4d& side) {
     std::vector<osg::Vec4d> left;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

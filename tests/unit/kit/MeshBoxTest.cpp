@@ -39,7 +39,7 @@ TEST(MeshBox, IsABinOfAMapAndBack) {
     EXPECT_FALSE(MeshBox(osg::BoundingBoxf(0, 0, 0, 1, 1, 1)).contains(MeshBox::boundless()));
 }
 
-// From near: from afar, what is rounded is less than a pixel.
+// The eyes are near: from afar the rounding is smaller than a pixel.
 TEST(MeshBox, HoldsVerticesWhereTheyAreDrawn) {
     test::Random random(104);
     for (int trial = 0; trial < 1000; ++trial) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What comes below a tile that bins were not fitted to it for: it stood below another tile, it was read before bins
-// were installed, or by an application's own means. Oracle: what is seen is drawn, in the frame in which it comes.
+// Content that comes below a tile after the bin of that tile was fitted: it stood below another tile, or it was read
+// before bins were installed or by the application. Oracle: what is seen is drawn, in the frame in which it comes.
 
 #include "ApplicationGlobe.h"
 
@@ -50,6 +50,13 @@ struct Neighbours : MeshGlobe {
     osg::ref_ptr<osg::Group> here, there;
 };
 
+void expectToBeDrawnFromNowOn(MeshGlobe& globe, osg::Node& content, const CullView& view) {
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(content, view)) << i;
+        update(*globe.scene);
+    }
+}
+
 TEST(Newcomers, AreModelsThatBelongToAnotherTileNow) {
     Neighbours globe(false);
     const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
@@ -60,10 +67,7 @@ TEST(Newcomers, AreModelsThatBelongToAnotherTileNow) {
     EXPECT_TRUE(globe.draws(*models, beside(place)));
     globe.there->removeChild(models);
     globe.here->addChild(models);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*models, beside(place))) << i;
-        update(*globe.root);
-    }
+    expectToBeDrawnFromNowOn(globe, *models, beside(place));
 }
 
 TEST(Newcomers, AreTilesThatStoodBelowAnother) {
@@ -72,10 +76,7 @@ TEST(Newcomers, AreTilesThatStoodBelowAnother) {
     EXPECT_TRUE(globe.draws(*leaf, downTo(22.5, 22.5)));
     globe.there->removeChild(leaf);
     globe.here->addChild(leaf);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*leaf, downTo(22.5, 22.5))) << i;
-        update(*globe.root);
-    }
+    expectToBeDrawnFromNowOn(globe, *leaf, downTo(22.5, 22.5));
 }
 
 TEST(Newcomers, AreTilesThatTheApplicationAddsBelowAnother) {
@@ -83,13 +84,10 @@ TEST(Newcomers, AreTilesThatTheApplicationAddsBelowAnother) {
     const osg::ref_ptr<osg::Group> added = Neighbours::levelOf(90.0);
     EXPECT_EQ(addTile(*globe.root, *added), 1u);
     globe.here->addChild(added);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*added, downTo(22.5, 112.5))) << i;
-        update(*globe.root);
-    }
+    expectToBeDrawnFromNowOn(globe, *added, downTo(22.5, 112.5));
 }
 
-// As by an application's own pager, or where files were asked for before bins were installed.
+// An application's own pager reads such levels, and so does OSG's where files were asked for before.
 TEST(Newcomers, ThatWereReadWithoutBinsMayLeaveGaps) {
     MeshGlobe globe;
     refineEverywhere(*globe.tiles[19]);
@@ -99,15 +97,12 @@ TEST(Newcomers, ThatWereReadWithoutBinsMayLeaveGaps) {
     const osg::ref_ptr<osg::Group> level = Neighbours::levelOf(-45.0, 10.0);
     putBelow(*globe.tiles[19], level);
     EXPECT_TRUE(globe.draws(*level, globe.fromAbove()));
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
+    expectToBeDrawnFromNowOn(globe, *globe.tiles[15], MeshGlobe::fromAbove());
     installBins(*globe.root);
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
-// Of a file that was read before bins were installed again, and comes after it.
+// The light source is in a file that is read before bins are installed again, and merged afterwards.
 TEST(Newcomers, ThatAnEarlierInstallationHasReadMayNeverBeCulled) {
     FiledGlobe globe;
     pageOut(*globe.tile);
@@ -138,10 +133,7 @@ TEST(Newcomers, MayComeToTilesThatHaveLeftTheirDatabase) {
     EXPECT_FALSE(globe.draws(*globe.tile, beside(place)));
     const osg::ref_ptr<osg::Node> tower = makeTower(place);
     globe.group->addChild(tower);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*tower, beside(place))) << i;
-        update(*globe.scene);
-    }
+    expectToBeDrawnFromNowOn(globe, *tower, beside(place));
 }
 
 TEST(Newcomers, ATileWithoutItsBinsMayHaveAHole) {
