@@ -41,7 +41,6 @@ constexpr const char* kExamples =
     "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        prints what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
-    "  osgbinconv --index metadata.xml          writes metadata.xml.bins, the boxes of a photogrammetry set\n"
     "An interrupted index is kept in earth.ive.bins.part; the same command resumes it.\n"
     "A copy that was killed leaves earth.osgb.copying; the same command makes it again.\n"
     "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";
@@ -70,10 +69,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have "
                  "changed since")
         ->needs(index);
-    app.add_option(
-           "FILE", arguments.files,
-           "the root file of a database, or the metadata.xml of a photogrammetry\nset; with --print also an index; "
-           "then the root file of a copy, *.osgb")
+    app.add_option("FILE", arguments.files,
+                   "the root file of a database; with --print also an index; then the root file of a copy, *.osgb")
         ->required();
     app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
     app.add_option("--cluster", arguments.cluster,
@@ -106,15 +103,6 @@ void prepareProcess() {
     osgAnalyticBin::indexing::checkAllReads();
 }
 
-ExitCode runOnPhotogrammetry(const Arguments& arguments) {
-    const std::string& file = arguments.files.front();
-    if (arguments.files.size() == 2) throw UsageError("photogrammetry sets are not copied; give --index");
-    if (arguments.keepsRecords) throw UsageError("--keep-records is not for photogrammetry sets; leave it out");
-    if (arguments.isIndex) osgbinconv::writeBoxIndex(file, arguments.walk);
-    if (arguments.isCheck) osgbinconv::checkBoxIndex(file, arguments.walk);
-    return kSucceeded;
-}
-
 ExitCode run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{kDescription, "osgbinconv"};
@@ -128,7 +116,6 @@ ExitCode run(int argc, char** argv) {
         osgbinconv::printIndex(file);
         return kSucceeded;
     }
-    if (osgbinconv::isPhotogrammetry(file)) return runOnPhotogrammetry(arguments);
     const DatabaseFiles files(file);
     if (arguments.files.size() == 2) {
         arguments.copy.keepClusters = arguments.cluster == "keep";

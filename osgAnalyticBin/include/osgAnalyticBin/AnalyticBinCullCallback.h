@@ -221,8 +221,6 @@ private:
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] bool isSurelyInside(osg::CullStack& cullStack) const;
-    [[nodiscard]] bool isSphereInView(const osg::Node& node, osg::CullStack& cullStack,
-                                      core::PlaneMask undecided) const;
     [[nodiscard]] std::optional<Verdict> hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,
                                                        osg::CullStack& cullStack, CullTraversal& traversal) const;
     [[nodiscard]] bool mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const;

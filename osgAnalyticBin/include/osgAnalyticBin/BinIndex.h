@@ -27,9 +27,7 @@ namespace osgAnalyticBin {
 struct FoundTile;
 
 /// The bins of a whole database, made once by `osgbinconv --index` and kept in one file beside it:
-/// "earth.ive" -> "earth.ive.bins". The database itself is not touched. That of a photogrammetry set,
-/// "metadata.xml.bins", has an entry for each osg::LOD: the box, as a bin of the map whose coordinates are those of the
-/// files, of the vertices of the node and of all that is paged below it.
+/// "earth.ive" -> "earth.ive.bins". The database itself is not touched.
 /// Threads: reading members are const and may be called by any number of threads at once.
 class OSGANALYTICBIN_EXPORT BinIndex : public osg::Object {
 public:
@@ -51,7 +49,7 @@ public:
     struct Source {
         /// Name of the root file, without its folder.
         std::string name;
-        /// Bytes of the root file; 0: it may have any content, as the metadata of a photogrammetry set.
+        /// Bytes of the root file; 0: it may have any content.
         std::uint64_t size = 0;
         /// When the root file was changed last, in seconds since 1970; a hint only, since copies often lose it.
         std::int64_t time = 0;

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/Export.h>
 
 #include <osg/Callback>
+#include <osg/Group>
 #include <osg/NodeVisitor>
 #include <osg/Program>
 
@@ -34,5 +35,12 @@ OSGANALYTICBIN_EXPORT void setDrawsTriangles(osg::Program& program);
 OSGANALYTICBIN_EXPORT void setDrawsAsCullVisitor(osg::NodeVisitor& visitor);
 /// Returns: whether setDrawsAsCullVisitor() was called for the visitor.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool drawsAsCullVisitor(const osg::NodeVisitor& visitor);
+
+/// Declares that the tiles below a node are a photogrammetry set, whose LODs may have spheres that do not hold what is
+/// below them; by the user value "osgAnalyticBin.photogrammetrySet" of the node. installBins() then puts no bins there,
+/// and lets no LOD be culled whose loaded vertices are in view. Call it before.
+OSGANALYTICBIN_EXPORT void markPhotogrammetrySet(osg::Group& set);
+/// Returns: whether markPhotogrammetrySet() was called for the node, before or after it was stored in a file.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool isPhotogrammetrySet(const osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -5,8 +5,6 @@
 
 #include "IndexStore.h"
 
-#include <osgAnalyticBin/BoxIndex.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 #include <osgAnalyticBin/index/Failure.h>
 #include <osgAnalyticBin/index/MadeIndex.h>
@@ -18,7 +16,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -40,17 +37,6 @@ std::string localRoot(const std::string& databaseFileName, const osgDB::Options*
     const auto& archives = osgDB::Registry::instance()->getArchiveExtensions();
     const std::string extension = osgDB::getLowerCaseFileExtension(root);
     return isLocal && std::find(archives.begin(), archives.end(), extension) == archives.end() ? root : std::string();
-}
-
-// Whether all files are those that an index with stamps was made from, and a photogrammetry set has no other tiles.
-bool isCurrent(const BinIndex& index, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
-    std::string none;
-    const auto isKnown = [&](const std::string& root) { return index.stamps().count(root) > 0; };
-    if (isMetadataName(files.rootFile())) {
-        const std::vector<std::string> roots = findPhotogrammetryFiles(files.rootFile(), none).roots;
-        if (!std::all_of(roots.begin(), roots.end(), isKnown)) return false;
-    }
-    return indexing::areCurrent(index.stamps(), files, checkpoint);
 }
 
 // The index that was kept in the cache folder. What is broken there is made anew.
@@ -85,7 +71,6 @@ void AutoIndex::countTiles(std::size_t more) {
 
 osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
     _tiles = 0;
-    if (isMetadataName(rootFile())) return makeOfSet();
     Observer observer(*this);
     indexing::MadeIndex made = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 1));
     BinIndex::Stamps stamps;
@@ -94,21 +79,8 @@ osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
     return made.index;
 }
 
-osg::ref_ptr<BinIndex> AutoIndex::makeOfSet() {
-    BoxIndexProgress progress;
-    progress.fileDone = [this](std::size_t boxes, double) { countTiles(boxes); };
-    progress.goesOn = [this] {
-        giveWay();
-        return true;
-    };
-    std::string error;
-    osg::ref_ptr<BinIndex> index = makeStampedBoxIndex(rootFile(), 1, progress, error);
-    if (!index) throw indexing::Failure(error);
-    return index;
-}
-
 bool AutoIndex::isUpToDate(const BinIndex& index, const DatabaseFiles& files) const {
-    return isCurrent(index, files, [this] { throwIfStopped(); });
+    return indexing::areCurrent(index.stamps(), files, [this] { throwIfStopped(); });
 }
 
 void AutoIndex::publish(const osg::ref_ptr<const BinIndex>& index) {
@@ -147,7 +119,7 @@ ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Option
     // times of files in archives and on servers are not known
     if (index && root.empty()) return {};
     const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
-    if (isSoonCompared && isCurrent(*index, DatabaseFiles(root), [] {})) return {index, nullptr};
+    if (isSoonCompared && indexing::areCurrent(index->stamps(), DatabaseFiles(root), [] {})) return {index, nullptr};
     if (isSoonCompared) index = nullptr;
     return {nullptr, isMade ? new AutoIndex(root, index) : nullptr};
 }

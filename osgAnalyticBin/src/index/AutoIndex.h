@@ -16,7 +16,7 @@
 
 namespace osgAnalyticBin {
 
-/// Makes the index of a database or a photogrammetry set in the background, and keeps it for the next time.
+/// Makes the index of a database in the background, and keeps it for the next time.
 class AutoIndex final : public BackgroundIndex {
 public:
     /// `kept`: an index with stamps, which is used if no file has changed since; null: none.
@@ -38,7 +38,6 @@ private:
     [[nodiscard]] bool isUpToDate(const BinIndex& index, const indexing::DatabaseFiles& files) const;
     // Reads all files. Returns: the index, with stamps.
     [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const indexing::DatabaseFiles& files);
-    [[nodiscard]] osg::ref_ptr<BinIndex> makeOfSet();
     void publish(const osg::ref_ptr<const BinIndex>& index);
     void countTiles(std::size_t more);
 

@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
 constexpr const char* kDrawsAsCullVisitor = "osgAnalyticBin.drawsAsCullVisitor";
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
+constexpr const char* kPhotogrammetrySet = "osgAnalyticBin.photogrammetrySet";
 
 }  // namespace
 
@@ -47,6 +48,15 @@ bool drawsAsCullVisitor(const osg::NodeVisitor& visitor) {
     bool does = false;
     if (visitor.getUserDataContainer()) (void)visitor.getUserValue(kDrawsAsCullVisitor, does);
     return does;
+}
+
+void markPhotogrammetrySet(osg::Group& set) {
+    set.setUserValue(kPhotogrammetrySet, true);
+}
+
+bool isPhotogrammetrySet(const osg::Node& node) {
+    const osg::UserDataContainer* const values = node.getUserDataContainer();
+    return values && node.asGroup() && values->getUserObject(kPhotogrammetrySet);
 }
 
 }  // namespace osgAnalyticBin

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "OptionString.h"
-#include "PhotogrammetryMetadata.h"
-#include "PhotogrammetryReader.h"
+#include "Photogrammetry.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>

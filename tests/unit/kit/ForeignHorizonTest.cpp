@@ -5,8 +5,8 @@
 
 #include "DatabaseFixture.h"
 
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <gtest/gtest.h>
 #include <osg/LOD>
@@ -73,7 +73,7 @@ TEST(ForeignHorizon, IsUsedBesideAPhotogrammetrySet) {
         const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
         tile->addChild(makeFlatTile(extentsDeg(20, 21, -21, -20), 100.0f), 0.0f, 1e9f);
         set->addChild(tile);
-        markPhotogrammetrySet(*set, "");
+        markPhotogrammetrySet(*set);
         Globe globe(false, 32, {}, set);
         EXPECT_EQ(globe.seen().count("19"), 1u);
         EXPECT_EQ(globe.seen().count(kAntipode), 0u);

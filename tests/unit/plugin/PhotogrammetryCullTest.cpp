@@ -8,9 +8,7 @@
 
 #include <osgAnalyticBin/InstallBins.h>
 
-#include <osg/ConvexPlanarOccluder>
 #include <osg/Geometry>
-#include <osg/OccluderNode>
 #include <osg/PagedLOD>
 
 #include <PagedFlight.h>
@@ -50,25 +48,8 @@ bool hasVertexInside(const osg::Drawable& drawable, const osg::Matrixd& toEye, c
     });
 }
 
-constexpr double kSeconds = 60.0;
-
-class BoxSets : public test::PhotogrammetryFixture {
+class FalseSpheres : public test::PhotogrammetryFixture {
 protected:
-    [[nodiscard]] osg::ref_ptr<BinIndex> keptIndex() const {
-        std::string error;
-        for (const auto& entry : fs::recursive_directory_iterator(_cache.path()))
-            if (entry.is_regular_file()) return BinIndex::read(entry.path().string(), error);
-        return nullptr;
-    }
-
-    static std::string withoutStamps(const BinIndex& index) {
-        const osg::ref_ptr<BinIndex> plain = new BinIndex(index);
-        plain->setStamps({});
-        std::ostringstream text;
-        EXPECT_TRUE(plain->write(text));
-        return text.str();
-    }
-
     // A set that is flown over.
     struct Flown {
         explicit Flown(const osg::ref_ptr<osg::Node>& read) : scene(read), flight(*scene, 100000) {}
@@ -121,7 +102,6 @@ protected:
         return lost;
     }
 
-    // The index that is made in the background, if one is, comes at any time.
     std::size_t lostBy(const std::string& options) {
         Flown all(read("method=none"));
         Flown culled(read(options));
@@ -131,163 +111,50 @@ protected:
     }
 };
 
-TEST_F(BoxSets, LoseNothingThatIsInView) {
-    EXPECT_EQ(lostBy("index=off"), 0U);
-    EXPECT_EQ(lostBy("index=auto"), 0U);
-    makeIndex();
-    EXPECT_EQ(lostBy("index=on"), 0U);
+TEST_F(FalseSpheres, LoseNothingThatIsInView) {
+    EXPECT_EQ(lostBy(""), 0U);
 }
 
 // Otherwise the test above says little.
-TEST_F(BoxSets, WithOsgsSpheresLoseDrawables) {
+TEST_F(FalseSpheres, WithOsgsSpheresLoseDrawables) {
     EXPECT_GT(lostBy("method=sphere"), 0U);
 }
 
-TEST_F(BoxSets, AskForNoMoreFilesThanSpheres) {
+// By what is loaded of them: otherwise their files would be asked for from everywhere.
+TEST_F(FalseSpheres, AreCulledBehindTheEye) {
+    Flown set(read());
+    const std::size_t files = test::loadedTiles(*set.scene);
+    const osg::Vec3d middle = setIn(*set.scene)->getMatrix().getTrans();
+    const osg::Vec3d eye = middle + middle / middle.length() * 400.0;
+    EXPECT_TRUE(set.drawn(CullView::lookAt(eye, eye + middle, osg::Vec3d(0, 0, 1), 60.0)).empty());
+    EXPECT_EQ(test::loadedTiles(*set.scene), files);
+}
+
+TEST_F(FalseSpheres, AreAllThatIsCulledOtherwiseThanByOsg) {
     test::PhotogrammetrySample sample;
     sample.hasFalseSpheres = false;
     sample.towersFrom = 0;  // so that the spheres hold what is below
     write(sample);
-    for (const bool isIndexed : {false, true}) {
-        if (isIndexed) makeIndex();
-        std::size_t fewer = 0;
-        for (const CullView& view : views(12)) {
-            Flown spheres(read("method=sphere"));
-            Flown boxes(read("index=on"));
-            const std::set<std::string> bySpheres = spheres.keys(view);
-            const std::set<std::string> byBoxes = boxes.keys(view);
-            const std::size_t files = test::loadedTiles(*boxes.scene);
-            EXPECT_LE(files, test::loadedTiles(*spheres.scene));
-            EXPECT_LE(byBoxes.size(), bySpheres.size());
-            fewer += test::loadedTiles(*spheres.scene) - files;
-        }
-        // boxes that hold everything are tighter than spheres
-        EXPECT_TRUE(fewer > 0 || !isIndexed);
+    for (const CullView& view : views(12)) {
+        Flown spheres(read("method=sphere"));
+        Flown set(read());
+        EXPECT_EQ(set.keys(view), spheres.keys(view));
+        EXPECT_EQ(test::loadedTiles(*set.scene), test::loadedTiles(*spheres.scene));
     }
 }
 
-TEST_F(BoxSets, TolerateMissingChildren) {
+TEST_F(FalseSpheres, TolerateMissingChildren) {
     fs::remove(_folder / test::kFileWithFalseSphere);
-    makeIndex();
-    Flown boxes(read());
+    Flown set(read());
     const CullView view = views(1).front();
     CullView down = view;
-    const osg::Vec3d middle = setIn(*boxes.scene)->getMatrix().getTrans();
+    const osg::Vec3d middle = setIn(*set.scene)->getMatrix().getTrans();
     const osg::Vec3d up = middle / middle.length();
     down.modelView = osg::Matrixd::lookAt(middle + up * 700.0, middle, osg::Vec3d(0, 0, 1));
-    boxes.flight.frames(down, 40);
+    set.flight.frames(down, 40);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     // each place is drawn once, at some level: the parent where the child is missing
-    EXPECT_GE(test::cull(*boxes.scene, down, *visitor).drawn.size(), 9U);
-}
-
-TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
-    test::PhotogrammetrySample low;
-    low.towersFrom = 100;  // none
-    write(low);
-    makeIndex();
-    const std::string index = test::textOfFile(binIndexName(_metadata));
-    write({});
-    ASSERT_EQ(index, test::textOfFile(binIndexName(_metadata)));
-    const CapturedNotes notes;
-    EXPECT_EQ(lostBy("method=quadratic"), 0U);
-    EXPECT_EQ(notes.count("is not as the index knows it"), 1U);
-}
-
-TEST_F(BoxSets, AreCulledWithoutABrokenIndex) {
-    (void)_folder.write("metadata.xml.bins", "\x89osgBins");
-    const CapturedNotes notes;
-    EXPECT_TRUE(read("index=on"));
-    EXPECT_EQ(notes.count("make it again with osgbinconv --index"), 1U);
-}
-
-TEST_F(BoxSets, GetAnIndexInTheBackgroundWhichIsUsedAtOnceTheNextTime) {
-    osg::ref_ptr<osg::Node> scene = read();
-    // an index that is being made goes on
-    EXPECT_GT(setCullOptions(*scene, {}), 0U);
-    ASSERT_TRUE(waitForIndex(*scene, kSeconds));
-    EXPECT_FALSE(isIndexAwaited(*scene));
-    scene = nullptr;
-    const auto kept = keptIndex();
-    ASSERT_TRUE(kept);
-    EXPECT_EQ(kept->stamps().size(), kept->fileCount());
-    std::string error;
-    const auto byHand = makeBoxIndex(_metadata, 2, {}, error);
-    ASSERT_TRUE(byHand) << error;
-    EXPECT_TRUE(byHand->stamps().empty());
-    EXPECT_EQ(withoutStamps(*kept), withoutStamps(*byHand));
-
-    const CapturedNotes notes;
-    scene = read();
-    EXPECT_FALSE(isIndexAwaited(*scene));
-    EXPECT_EQ(notes.count("Their index is being made"), 0U);
-}
-
-TEST_F(BoxSets, GetANewIndexWhenAFileChangesIsAddedOrIsRemoved) {
-    const auto isMadeAnew = [&] {
-        const osg::ref_ptr<osg::Node> scene = read();
-        return isIndexAwaited(*scene) && waitForIndex(*scene, kSeconds);
-    };
-    EXPECT_TRUE(isMadeAnew());
-    fs::resize_file(_folder / test::kFileWithFalseSphere, 300);
-    EXPECT_TRUE(isMadeAnew());
-    fs::remove(_folder / test::kFileWithFalseSphere);
-    EXPECT_TRUE(isMadeAnew());
-    fs::copy(_folder / "Data/Tile_+000_+000", _folder / "Data/Tile_+009_+009");
-    fs::rename(_folder / "Data/Tile_+009_+009/Tile_+000_+000.osgb",
-               _folder / "Data/Tile_+009_+009/Tile_+009_+009.osgb");
-    EXPECT_TRUE(isMadeAnew());
-    EXPECT_FALSE(isMadeAnew());
-}
-
-TEST_F(BoxSets, KeepTheirIndexWhereSomethingElseHasTheNameOfOneBesideThem) {
-    (void)_folder.write("metadata.xml.bins", "of another program");
-    osg::ref_ptr<osg::Node> scene = read();
-    ASSERT_TRUE(waitForIndex(*scene, kSeconds));
-    EXPECT_EQ(test::textOfFile(binIndexName(_metadata)), "of another program");
-    EXPECT_FALSE(fs::is_empty(_cache.path()));
-    scene = read();
-    EXPECT_FALSE(isIndexAwaited(*scene));
-}
-
-TEST_F(BoxSets, GiveLoadedTilesTheBoxesOfTheIndexThatIsMade) {
-    test::PhotogrammetrySample sample;
-    sample.hasFalseSpheres = false;
-    write(sample);
-    std::size_t fewer = 0;
-    for (const CullView& view : views(12)) {
-        makeIndex();
-        Flown byHand(read());
-        fs::remove(binIndexName(_metadata));
-        Flown without(read("index=off"));
-        Flown late(read("index=off"));
-        // the roots are loaded
-        setCullOptions(*late.scene, {});
-        ASSERT_TRUE(waitForIndex(*late.scene, kSeconds));
-        EXPECT_EQ(late.keys(view), byHand.keys(view));
-        (void)without.keys(view);
-        const std::size_t files = test::loadedTiles(*late.scene);
-        EXPECT_EQ(files, test::loadedTiles(*byHand.scene));
-        fewer += test::loadedTiles(*without.scene) - files;
-    }
-    EXPECT_GT(fewer, 0U);
-}
-
-TEST_F(BoxSets, KeepVisibleWhatIsLoadedAndDoesNotFitTheIndexThatIsMade) {
-    Flown all(read("method=none"));
-    Flown culled(read("index=off"));
-    for (const CullView& view : views(12)) {
-        (void)lost(all, view, {});
-        (void)culled.keys(view);
-    }
-    test::PhotogrammetrySample low;
-    low.towersFrom = 100;  // none
-    write(low);
-    const CapturedNotes notes;
-    setCullOptions(*culled.scene, {});
-    ASSERT_TRUE(waitForIndex(*culled.scene, kSeconds));
-    EXPECT_EQ(notes.count("is not as the index knows it"), 1U);
-    for (const CullView& view : views(12)) EXPECT_TRUE(lost(all, view, culled.keys(view)).empty());
+    EXPECT_GE(test::cull(*set.scene, down, *visitor).drawn.size(), 9U);
 }
 
 // Callbacks, culling flags, options and expiry of all nodes, as text.
@@ -313,8 +180,7 @@ std::string flagsOf(osg::Node& node) {
     return flags.text.str();
 }
 
-TEST_F(BoxSets, AreAsBeforeWhenBoxesAreTakenOff) {
-    makeIndex();
+TEST_F(FalseSpheres, AreAsBeforeWhenBinsAreTakenOff) {
     const osg::ref_ptr<osg::Node> scene = read("method=sphere");
     const std::string before = flagsOf(*scene);
     EXPECT_GT(installBins(*scene, {}), 0U);
@@ -323,47 +189,44 @@ TEST_F(BoxSets, AreAsBeforeWhenBoxesAreTakenOff) {
     EXPECT_EQ(flagsOf(*scene), before);
 }
 
-TEST_F(BoxSets, FollowOtherOptions) {
-    makeIndex();
-    Flown boxes(read());
+TEST_F(FalseSpheres, FollowOtherOptions) {
+    Flown set(read());
     const CullView view = views(1).front();
-    const std::size_t culled = boxes.keys(view).size();
+    const std::size_t culled = set.keys(view).size();
     CullOptions none;
     none.method = Method::None;
-    EXPECT_EQ(setCullOptions(*boxes.scene, none), 0U);
-    EXPECT_GT(boxes.keys(view).size(), culled);
-    setCullOptions(*boxes.scene, {});
-    EXPECT_EQ(boxes.keys(view).size(), culled);
+    EXPECT_EQ(setCullOptions(*set.scene, none), 0U);
+    EXPECT_GT(set.keys(view).size(), culled);
+    setCullOptions(*set.scene, {});
+    EXPECT_EQ(set.keys(view).size(), culled);
 }
 
-TEST_F(BoxSets, KeepBrokenFilesApart) {
-    makeIndex();
+TEST_F(FalseSpheres, KeepBrokenFilesApart) {
     for (const auto& entry : fs::recursive_directory_iterator(_folder / "Data")) {
         const std::string name = entry.path().filename().string();
         if (name.find("_L3_") != std::string::npos) fs::resize_file(entry.path(), 300);
     }
-    Flown boxes(read());
+    Flown set(read());
     const CapturedNotes notes;
     const CullView view = views(1).front();
-    boxes.flight.frames(view, 30);
+    set.flight.frames(view, 30);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    EXPECT_FALSE(test::cull(*boxes.scene, view, *visitor).drawn.empty());
+    EXPECT_FALSE(test::cull(*set.scene, view, *visitor).drawn.empty());
     // each file is tried once in this second, not in every frame
     EXPECT_LE(notes.count("could not be read"), 36U);
 }
 
-// A mast that stands out of the tile's box, though not of its sphere, below a view that looks over the box.
-TEST_F(BoxSets, ShowWhatAnApplicationAddsBelowATile) {
-    makeIndex();
-    Flown boxes(read());
-    osg::MatrixTransform& set = *setIn(*boxes.scene);
+// A mast that stands out of the tile's sphere, below a view that looks over the sphere.
+TEST_F(FalseSpheres, ShowWhatAnApplicationAddsBelowATile) {
+    Flown set(read());
+    osg::MatrixTransform& set = *setIn(*set.scene);
     auto& tile = dynamic_cast<osg::PagedLOD&>(*set.getChild(0));
-    const osg::Vec3d top(tile.getCenter() + osg::Vec3(0, 0, 0.9F * tile.getRadius()));
+    const osg::Vec3d top(tile.getCenter() + osg::Vec3(0, 0, 1.3F * tile.getRadius()));
     const osg::Vec3d eye(top - osg::Vec3d(3000, 0, 0));
     const osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), set.getMatrix());
     const CullView view =
         CullView::lookAt(eye * set.getMatrix(), (top + osg::Vec3d(0, 0, 510)) * set.getMatrix(), up, 20.0);
-    ASSERT_TRUE(boxes.drawn(view).empty());
+    ASSERT_TRUE(set.drawn(view).empty());
     const osg::ref_ptr<osg::Geometry> mast = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     vertices->push_back(osg::Vec3(top) - osg::Vec3(0, 0, 9));
@@ -371,42 +234,13 @@ TEST_F(BoxSets, ShowWhatAnApplicationAddsBelowATile) {
     mast->setVertexArray(vertices);
     mast->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
     ASSERT_TRUE(tile.getChild(0)->asGroup()->addChild(mast));
-    EXPECT_EQ(boxes.drawn(view).count(mast), 1U);
-    EXPECT_EQ(boxes.drawn(view).count(mast), 1U);
+    EXPECT_EQ(set.drawn(view).count(mast), 1U);
+    EXPECT_EQ(set.drawn(view).count(mast), 1U);
 }
 
-// A wall before the eye, which hides no box: OSG tests occluders by spheres.
-TEST_F(BoxSets, AreCulledByBoxesWhereThereAreOccluders) {
-    Flown boxes(read("index=off"));
-    const CullView view = views(1).front();
-    const std::set<std::string> before = boxes.keys(view);
-    const osg::Matrixd toWorld = osg::Matrixd::inverse(view.modelView);
-    const osg::ref_ptr<osg::ConvexPlanarOccluder> wall = new osg::ConvexPlanarOccluder;
-    for (const osg::Vec3d& corner : {osg::Vec3d(-5, -5, -6), {5, -5, -6}, {5, 5, -6}, {-5, 5, -6}})
-        wall->getOccluder().add(osg::Vec3(corner));
-    const osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
-    occluder->setOccluder(wall);
-    occluder->setCullingActive(false);
-    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(toWorld);
-    place->addChild(occluder);
-    boxes.scene->asGroup()->addChild(place);
-    CullView occluded = view;
-    occluded.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
-    EXPECT_EQ(boxes.keys(occluded), before);
-}
-
-TEST_F(BoxSets, LetViewersThatDrawOnDemandRest) {
-    makeIndex();
-    Flown boxes(read());
-    const CullView view = views(1).front();
-    (void)boxes.keys(view);
-    boxes.flight.frames(view, 3);
-    EXPECT_FALSE(setIn(*boxes.scene)->getUpdateCallback());
-}
-
-TEST_F(BoxSets, LoseNothingInClones) {
+TEST_F(FalseSpheres, LoseNothingInClones) {
     Flown all(read("method=none"));
-    const osg::ref_ptr<osg::Node> original = read("index=off");
+    const osg::ref_ptr<osg::Node> original = read();
     for (const unsigned int callbacks : {0U, unsigned(osg::CopyOp::DEEP_COPY_CALLBACKS)}) {
         const unsigned int flags = unsigned(osg::CopyOp::DEEP_COPY_NODES) | callbacks;
         Flown clone(osg::clone(original.get(), osg::CopyOp(flags)));
@@ -414,16 +248,12 @@ TEST_F(BoxSets, LoseNothingInClones) {
     }
 }
 
-TEST_F(BoxSets, MayBeTheRootOfTheScene) {
+TEST_F(FalseSpheres, MayBeTheRootOfTheScene) {
     writeMetadata("", "0,0,0");
     const osg::ref_ptr<osg::Node> scene = read("method=sphere");
     const std::string before = flagsOf(*scene);
-    CullOptions options;
-    options.index = IndexUse::Off;
-    EXPECT_GT(installBins(*scene, options), 0U);
+    EXPECT_GT(installBins(*scene, {}), 0U);
     EXPECT_GT(setCullOptions(*scene, {}), 0U);
-    EXPECT_TRUE(isIndexAwaited(*scene));
-    EXPECT_TRUE(waitForIndex(*scene, kSeconds));
     removeBins(*scene);
     EXPECT_EQ(flagsOf(*scene), before);
 }

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/BoxIndex.h>
-
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/Drawable>
@@ -15,7 +13,6 @@
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 
-#include <cstdlib>
 #include <string>
 #include <support/CapturedNotes.h>
 #include <support/PhotogrammetrySample.h>
@@ -26,8 +23,6 @@ namespace osgAnalyticBin::test {
 /// A photogrammetry set in a folder of its own.
 class PhotogrammetryFixture : public ::testing::Test {
 protected:
-    PhotogrammetryFixture() { ::setenv("XDG_CACHE_HOME", _cache.path().c_str(), 1); }
-    ~PhotogrammetryFixture() override { ::unsetenv("XDG_CACHE_HOME"); }
     void SetUp() override { write({}); }
 
     void write(const PhotogrammetrySample& sample) {
@@ -38,13 +33,6 @@ protected:
     void writeMetadata(const std::string& srs, const std::string& origin) const {
         (void)_folder.write("metadata.xml", "<?xml version=\"1.0\"?>\n<ModelMetadata version=\"1\"><SRS>" + srs +
                                                 "</SRS><SRSOrigin>" + origin + "</SRSOrigin></ModelMetadata>\n");
-    }
-
-    void makeIndex() const {
-        std::string error;
-        const osg::ref_ptr<BinIndex> index = makeBoxIndex(_metadata, 2, {}, error);
-        ASSERT_TRUE(index) << error;
-        ASSERT_TRUE(index->write(binIndexName(_metadata), error)) << error;
     }
 
     [[nodiscard]] osgDB::ReaderWriter::ReadResult readResult(const std::string& options = "") const {
@@ -66,7 +54,7 @@ protected:
         return dynamic_cast<osg::MatrixTransform*>(globe ? globe->getChild(0) : &scene);
     }
 
-    TemporaryFolder _folder, _cache;
+    TemporaryFolder _folder;
     std::string _metadata;
 };
 

@@ -303,21 +303,9 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     };
     return isCulledByBin(node, cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             const core::PlaneMask before = undecided;
-                             const Verdict verdict = _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
-                                                            : test(traversal.planes(cullStack), undecided);
-                             if (verdict.side != core::Side::Outside || !isSphereInView(node, cullStack, before))
-                                 return verdict;
-                             undecided = before;
-                             return Verdict{core::Side::Straddling, Verdict::Plane};
+                             return _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
+                                           : test(traversal.planes(cullStack), undecided);
                          });
-}
-
-// What its bin does not hold of a tile is held by OSG's sphere, which is not tested before.
-bool AnalyticBinCullCallback::isSphereInView(const osg::Node& node, osg::CullStack& cullStack,
-                                             core::PlaneMask undecided) const {
-    return _installed && _installed->has(InstalledTile::NeedsSphere) &&
-           !isSphereCulled(cullStack.getCurrentCullingSet(), undecided, node.getBound());
 }
 
 // Whether it obeys depth, with all that is below it, and by the states down to it, from the database if there is one.

@@ -17,16 +17,16 @@
 #include "../tile/Carrier.h"
 #include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
-#include "BoxInstaller.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
 #include "NoCulling.h"
+#include "SetInstaller.h"
 #include "TileCallback.h"
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallRequest.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -348,10 +348,10 @@ DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
     return drawn;
 }
 
-// A set is culled by boxes of its vertices, also below other nodes.
+// Also below other nodes.
 void BinInstaller::visitSet(osg::Group& set) {
-    if (!installsBins()) return removeBoxes(set);
-    _boxes += installBoxes(set, _options);
+    removeCallbacksBelow(set, _nested);
+    _lods += installOnSet(set, _options);
 }
 
 void BinInstaller::visitMoving(osg::Transform& node) {

@@ -54,7 +54,7 @@ public:
     void installAt(osg::Node& root);
 
     /// Number of callbacks installed so far.
-    [[nodiscard]] std::size_t installed() const { return _installed + _boxes; }
+    [[nodiscard]] std::size_t installed() const { return _installed + _lods; }
 
     /// Visits a node of the database; called by OSG's traversal.
     void apply(osg::Node& node) override;
@@ -125,7 +125,7 @@ private:
     using Coverages = std::map<std::pair<const InstalledTile*, std::string>, Coverage>;
     std::shared_ptr<Coverages> _coverage;
     std::size_t _installed = 0;
-    std::size_t _boxes = 0;           // of photogrammetry sets
+    std::size_t _lods = 0;            // of photogrammetry sets
     std::vector<osg::Node*> _groups;  // candidates for families
     NestedCallbacks _nested;          // taken off when the installer is done
 };

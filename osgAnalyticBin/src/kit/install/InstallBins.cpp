@@ -8,7 +8,6 @@
 #include "BinInstaller.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Notify>
@@ -79,7 +78,6 @@ void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Datab
 void makeIndex(osg::Node& node, TileBoundsSource* index) {
     bool isWanted = false;
     forEachDatabase(node, [&](osg::Node& at, Database& database) {
-        if (isPhotogrammetrySet(at)) return;
         const bool isWantedHere = index && database.has(Finding::IndexWanted);
         database.setMaking(isWantedHere ? index : nullptr);
         isWanted = isWanted || isWantedHere;
@@ -102,11 +100,9 @@ std::size_t installBins(osg::Node& node, const CullOptions& options) {
 
 std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
                         const osgDB::Options* readOptions) {
-    // photogrammetry sets look for theirs themselves
-    const std::string& database = isMetadataName(databaseFileName) ? std::string() : databaseFileName;
     // an index numbers the tiles that are found without a name
     const IndexUse use = options.ground.empty() ? options.index : IndexUse::Off;
-    const ChosenIndex chosen = chooseIndex(database, readOptions, use);
+    const ChosenIndex chosen = chooseIndex(databaseFileName, readOptions, use);
     const std::size_t installed = install(node, options, chosen.index.get());
     makeIndex(node, chosen.making.get());
     return installed;

@@ -13,6 +13,7 @@
 #include "../tile/InstalledTile.h"
 #include "ContentWatch.h"
 #include "NoCulling.h"
+#include "SetInstaller.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
@@ -47,7 +48,6 @@ void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCal
     ContentWatch::remove(culled);
     ContentWatch::remove(*tile.node);
     if (!installed || !installed->isFor(&culled)) return;
-    installed->restoreSphere(culled);
     installed->setNode(nullptr);
 }
 
@@ -125,6 +125,7 @@ void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
         TileFamily::remove(node);
         ContentWatch::remove(node);
         NoCulling::remove(node);
+        removeFromLod(node);
     });
 }
 

@@ -35,18 +35,9 @@ void InstalledTile::settle(unsigned int reasons) {
 
 void InstalledTile::tellFamily() {
     if (!_block) return;
-    _block->believe(_slot, _isSlotFilled && !has(Outgrown | NeverCulled | MeshUnread | NeedsSphere));
+    _block->believe(_slot, _isSlotFilled && !has(Outgrown | NeverCulled | MeshUnread));
     _block->allowHiding(_slot, !has(IgnoresDepth));
     _block->trust(_slot, isCertain());
-}
-
-void InstalledTile::switchOffSphere(osg::Node& node) {
-    _hasSwitchedOffSphere = node.getCullingActive();
-    node.setCullingActive(false);
-}
-
-void InstalledTile::restoreSphere(osg::Node& node) const {
-    if (_hasSwitchedOffSphere) node.setCullingActive(true);
 }
 
 void InstalledTile::setPlates(std::shared_ptr<const core::GroundPlates> plates) {

@@ -39,28 +39,25 @@ public:
         Outgrown = 1u << 0,
         /// The bin holds heights that were declared alone, and OSG's sphere bounds what is loaded: both cull the tile.
         Declared = 1u << 1,
-        /// The bin holds what is loaded alone, and OSG's sphere of the node what is not: the tile is culled where both
-        /// are out of view, by its own callback.
-        NeedsSphere = 1u << 2,
         /// The mesh has changed and has not been looked at since: the tile's own callback tests it, not its family.
-        MeshUnread = 1u << 3,
+        MeshUnread = 1u << 2,
         /// The mesh has changed since bins were installed.
-        MeshChanged = 1u << 4,
+        MeshChanged = 1u << 3,
         /// The mesh has moved since then: its former place may be empty.
-        MeshMoved = 1u << 5,
+        MeshMoved = 1u << 4,
         /// The mesh is not known to fill its place.
-        NotFilled = 1u << 6,
+        NotFilled = 1u << 5,
         /// The tiles of a file that is paged below are not known to fill the place.
-        GapBelow = 1u << 7,
+        GapBelow = 1u << 6,
         /// The tile draws something that is not known to hide what is behind it.
-        SeeThrough = 1u << 8,
+        SeeThrough = 1u << 7,
         /// The tile, or something below it, may be drawn in front of what is nearer, or beside its triangles: nothing
         /// hides the tile.
-        IgnoresDepth = 1u << 9,
+        IgnoresDepth = 1u << 8,
         /// The application has switched off culling for the tile's mesh, or for something below it: never culled.
-        NeverCulled = 1u << 10,
+        NeverCulled = 1u << 9,
         /// Content stands in the tile beside the mesh that was read, and may be higher.
-        MoreThanMesh = 1u << 11,
+        MoreThanMesh = 1u << 10,
     };
 
     /// Where a tile lies, for the tiles below it.
@@ -130,11 +127,6 @@ public:
         return !has(NotFilled | SeeThrough | MeshMoved | MeshChanged | GapBelow | MoreThanMesh);
     }
 
-    /// Has OSG test no sphere of the node before its callbacks, until restoreSphere(): what the sphere does not hold
-    /// may be in view.
-    void switchOffSphere(osg::Node& node);
-    void restoreSphere(osg::Node& node) const;
-
     /// Assigns the tile a slot in a family. The tile's callback calls fillSlot().
     void joinFamily(TileBlock& block, std::size_t slot);
     [[nodiscard]] bool hasFamily() const { return _block.valid(); }
@@ -177,7 +169,6 @@ private:
     osg::observer_ptr<osg::NodeCallback> _callback;
     std::atomic<unsigned int> _reasons{NotFilled};
     bool _isSlotFilled = false;
-    bool _hasSwitchedOffSphere = false;
     std::atomic<bool> _isAskedForPlates{false};
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;

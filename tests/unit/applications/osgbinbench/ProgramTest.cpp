@@ -5,8 +5,6 @@
 
 #include "BenchProgram.h"
 
-#include <osgAnalyticBin/BoxIndex.h>
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -315,17 +313,11 @@ TEST(Program, APhotogrammetrySetLosesNothing) {
                               "tower,47.5012,11.2010,120,47.5008,11.2010,100,20,1,5000\n"
                               "rim,47.5006,11.2025,60,47.5006,11.1990,90,15,1,5000\n"
                               "above,47.5000,11.2000,600,47.5001,11.2000,0,60,1,5000\n");
-    std::string error;
-    const auto index = makeBoxIndex(set, 2, {}, error);
-    ASSERT_TRUE(index) << error;
-    for (const bool isIndexed : {false, true}) {
-        ASSERT_TRUE(!isIndexed || index->write(binIndexName(set), error)) << error;
-        const Json methods = bench.run("set", "--methods sphere,quadratic --live 0");
-        ASSERT_EQ(methods.size(), 3U);
-        EXPECT_EQ(methods["quadratic"]["false_culls"], 0);
-        EXPECT_EQ(methods["quadratic"]["differing_pixels"], 0);
-        EXPECT_LT(methods["quadratic"]["drawn_tiles"], methods["none"]["drawn_tiles"]);
-    }
+    const Json methods = bench.run("set", "--methods sphere,quadratic --live 0");
+    ASSERT_EQ(methods.size(), 3U);
+    EXPECT_EQ(methods["quadratic"]["false_culls"], 0);
+    EXPECT_EQ(methods["quadratic"]["differing_pixels"], 0);
+    EXPECT_LT(methods["quadratic"]["drawn_tiles"], methods["none"]["drawn_tiles"]);
 }
 
 }  // namespace

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SetInstaller.h"
+
+#include "../CallbackChain.h"
+#include "../cull/CullScopes.h"
+#include "../database/BinReadFileCallback.h"
+#include "../database/Database.h"
+#include "../tile/BoundWatch.h"
+
+#include <osg/ComputeBoundsVisitor>
+#include <osg/LOD>
+#include <osg/NodeCallback>
+#include <osg/PagedLOD>
+
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Whether a sphere holds a box. Makers of files round spheres to float.
+bool holdsBox(const osg::BoundingSphere& sphere, const osg::BoundingBox& box) {
+    constexpr double kRounding = 1e-6;
+    const osg::Vec3d center(sphere.center());
+    const double reach = sphere.radius() + kRounding * (center.length() + sphere.radius());
+    bool holds = true;
+    for (unsigned int i = 0; box.valid() && i < 8; ++i)
+        holds = holds && (osg::Vec3d(box.corner(i)) - center).length() <= reach;
+    return holds;
+}
+
+// Knows the box of all that is loaded below a LOD. OSG calls it where something there has changed.
+class LodWatch final : public BoundWatch {
+public:
+    LodWatch() = default;
+    LodWatch(const LodWatch& other, const osg::CopyOp& copyop) : BoundWatch(other, copyop) {}
+    osg::Object* clone(const osg::CopyOp& copyop) const override { return new LodWatch(*this, copyop); }
+
+    [[nodiscard]] static const LodWatch* of(const osg::Node& node) {
+        return dynamic_cast<const LodWatch*>(node.getComputeBoundingSphereCallback());
+    }
+    static void place(osg::Node& node) {
+        const osg::ref_ptr<LodWatch> watch = new LodWatch;
+        watch->_node = &node;
+        const LodWatch* const before = of(node);
+        watch->_previous = before ? before->_previous.get() : node.getComputeBoundingSphereCallback();
+        node.setComputeBoundingSphereCallback(watch);
+        node.dirtyBound();
+    }
+    static void remove(osg::Node& node) {
+        if (const LodWatch* const watch = of(node))
+            node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
+    }
+
+    [[nodiscard]] const osg::BoundingBox& loaded() const { return _loaded; }
+
+    osg::BoundingSphere computeBound(const osg::Node& node) const override;
+
+protected:
+    ~LodWatch() override = default;
+
+private:
+    const osg::Node* _node = nullptr;
+    mutable osg::BoundingBox _loaded;
+};
+
+class LodCullCallback final : public osg::NodeCallback {
+public:
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        const auto isCulled = [node](osg::CullStack& cullStack) {
+            const osg::BoundingSphere& sphere = node->getBound();
+            const LodWatch* const watch = LodWatch::of(*node);
+            // something below asks OSG not to cull
+            const bool isTested = watch && node->getNumChildrenWithCullingDisabled() == 0;
+            return isTested && cullStack.isCulled(sphere) && cullStack.isCulled(watch->loaded());
+        };
+        cullOrTraverse(*nv, isCulled, [&] { traverse(node, nv); });
+    }
+
+protected:
+    ~LodCullCallback() override = default;
+};
+
+// What is drawn below a LOD. Other LODs know it of themselves.
+class LoadedBox : public osg::ComputeBoundsVisitor {
+public:
+    using osg::ComputeBoundsVisitor::apply;
+
+    LoadedBox() { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        const LodWatch* const watch = LodWatch::of(node);
+        if (!watch) return traverse(node);
+        (void)node.getBound();
+        applyBoundingBox(LodWatch::of(node)->loaded());
+    }
+};
+
+osg::BoundingSphere LodWatch::computeBound(const osg::Node& node) const {
+    auto& lod = const_cast<osg::Node&>(node);
+    // a clone may share the watch of the original
+    if (&node != _node) {
+        const osg::ref_ptr<const LodWatch> self(this);
+        place(lod);
+        return of(node)->computeBound(node);
+    }
+    const osg::BoundingSphere bound = boundOf(node);
+    LoadedBox box;
+    lod.traverse(box);
+    _loaded = box.getBoundingBox();
+    if (lod.getCullingActive() && !holdsBox(bound, _loaded)) {
+        lod.setCullingActive(false);
+        const osg::ref_ptr<LodCullCallback> callback = new LodCullCallback;
+        putInFront(lod, *callback);
+    }
+    return bound;
+}
+
+class LodSearch : public osg::NodeVisitor {
+public:
+    LodSearch() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::LOD& node) override {
+        lods.push_back(&node);
+        traverse(node);
+    }
+    void apply(osg::Transform&) override {}
+
+    std::vector<osg::LOD*> lods;
+};
+
+class SetDatabase final : public Database {
+public:
+    explicit SetDatabase(const CullOptions& options) : Database(options, mapPlane(), nullptr, nullptr) {}
+
+    std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile*) override {
+        const Method method = options().method;
+        const bool isOff = method == Method::Sphere || method == Method::None;
+        LodSearch found;
+        content.accept(found);
+        PagedReads reads;
+        for (osg::LOD* const lod : found.lods) {
+            removeFromLod(*lod);
+            if (!isOff) LodWatch::place(*lod);
+            if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod))
+                reads.follow(*paged, frame, *this, nullptr, false);
+        }
+        return isOff ? 0 : found.lods.size();
+    }
+    void refit(osg::Node&) override {}
+    void watch(osg::Group&) override {}
+    void installOnClone(osg::Node&) override {}
+
+protected:
+    ~SetDatabase() override = default;
+};
+
+}  // namespace
+
+std::size_t installOnSet(osg::Group& set, const CullOptions& options) {
+    const osg::ref_ptr<SetDatabase> database = new SetDatabase(options);
+    std::size_t installed = 0;
+    for (unsigned int i = 0; i < set.getNumChildren(); ++i)
+        installed += database->install(*set.getChild(i), {}, nullptr);
+    return installed;
+}
+
+void removeFromLod(osg::Node& node) {
+    LodWatch::remove(node);
+    if (!findCallback<LodCullCallback>(node.getCullCallback())) return;
+    takeOffFirst<LodCullCallback>(node);
+    node.setCullingActive(true);
+}
+
+}  // namespace osgAnalyticBin
