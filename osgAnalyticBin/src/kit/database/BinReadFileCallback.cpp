@@ -3,28 +3,20 @@
 
 #include "BinReadFileCallback.h"
 
-#include "../Text.h"
 #include "../tile/Carrier.h"
 #include "../tile/EachNode.h"
-#include "CachedContent.h"
 #include "DatabaseCallbacks.h"
 
 #include <osgAnalyticBin/TileFile.h>
 
 #include <osg/Notify>
-#include <osg/observer_ptr>
 #include <osgDB/FileCache>
 #include <osgDB/Registry>
 
 #include <algorithm>
-#include <cstddef>
 #include <exception>
 #include <functional>
 #include <ios>
-#include <iterator>
-#include <map>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -82,75 +74,6 @@ std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& 
     return files;
 }
 
-// Nodes that a user's read callback keeps, and so may hand out more than once, to several threads, or while they are
-// being drawn: bins are installed on each only once.
-// Threads: any number at once; one installs while the others wait.
-class SharedTiles {
-public:
-    enum class Outcome {
-        Usable,    // installed now or before, for the same place; or drawn already by a scene without bins
-        Elsewhere  // installed before for another place: its bins would be wrong here
-    };
-
-    [[nodiscard]] static SharedTiles& instance() {
-        // never destroyed: a pager that an application never deletes may still read
-        static SharedTiles& tiles = *new SharedTiles;
-        return tiles;
-    }
-
-    // Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. A tile's bin
-    // holds for one Database alone: another may have other corrections, another shape of terrain, or a horizon that the
-    // tile was never counted in. With a later Database::generation() it runs again for nodes that are not in the scene;
-    // the scene's are updated with it.
-    [[nodiscard]] Outcome installOnce(osg::Node& node, Database& database, const std::string& place,
-                                      unsigned int generation, const std::function<void()>& install) {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        const auto known = _installed.find(&node);
-        osg::ref_ptr<const Database> owner;
-        const bool isKnown =
-            known != _installed.end() && known->second.node.valid() && known->second.database.lock(owner);
-        // the bins of an installation that is over are replaced
-        if (isKnown && !owner->isRemoved()) {
-            if (owner != &database || known->second.place != place) return Outcome::Elsewhere;
-            if (known->second.generation == generation) return Outcome::Usable;
-        }
-        // A cull traversal may be in it just now. Without bins, OSG's spheres stay in charge there.
-        if (node.getNumParents() > 0) return Outcome::Usable;
-        install();
-        forgetDeleted();
-        _installed[&node] = {&node, &database, place, generation};
-        return Outcome::Usable;
-    }
-
-private:
-    struct Installed {
-        osg::observer_ptr<osg::Node> node;
-        osg::observer_ptr<const Database> database;
-        std::string place;
-        unsigned int generation = 0;
-    };
-
-    void forgetDeleted() {
-        if (_installed.size() < _enough) return;
-        for (auto entry = _installed.begin(); entry != _installed.end();) {
-            entry = entry->second.node.valid() ? std::next(entry) : _installed.erase(entry);
-        }
-        _enough = std::max<std::size_t>(64, 2 * _installed.size());
-    }
-
-    std::mutex _mutex;
-    std::map<const osg::Node*, Installed> _installed;
-    std::size_t _enough = 64;  // entries at which those of deleted nodes are looked for
-};
-
-// Where on which globe.
-std::string placeText(const TileFrame& frame) {
-    std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
-    const osg::EllipsoidModel* ellipsoid = frame.ellipsoid.get();
-    if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
-    return numbersToText(numbers);
-}
-
 }  // namespace
 
 BinReadFileCallback::BinReadFileCallback(Database* database, const TileFrame& frame, osgDB::ReadFileCallback* previous)
@@ -188,51 +111,35 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     const BusyPager busy(_database->making());
     // before anything is asked of the database: what changes meanwhile is a later one
     const unsigned int generation = _database->generation();
-    ReadResult result =
-        readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options, generation); });
+    ReadResult result = readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options); });
     if (result.validNode()) _database->noteRead(*result.getNode(), generation);
     return result;
 }
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::string& fileName,
-                                                                    const osgDB::Options* options,
-                                                                    unsigned int generation) {
-    // OSG's object cache keeps the options that a file was read with
+                                                                    const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> plain = options ? options->cloneOptions() : nullptr;
-    if (plain) plain->setReadFileCallback(_previous.get());
+    if (plain) {
+        plain->setReadFileCallback(_previous.get());
+        // others read what OSG's object caches keep, too
+        const int hints = plain->getObjectCacheHint() & ~osgDB::Options::CACHE_NODES;
+        plain->setObjectCacheHint(static_cast<osgDB::Options::CacheHintOptions>(hints));
+    }
     ReadResult result = readPlain(fileName, plain.get(), _previous.get());
     osg::ref_ptr<osg::Node> node = result.getNode();
     if (!node) return result;
-    if (const osg::ref_ptr<osg::Node> cached = plain ? cachedNode(fileName, *plain) : nullptr) {
-        const osg::ref_ptr<osg::Node> copy = copyForBins(*cached);
-        if (!copy) return result;
-        if (cached == node) {
-            result = ReadResult(copy.get(), result.status());
-            node = copy;
-        } else {
-            replaceBelow(*node, *cached, *copy);
-        }
+    // the result and this function
+    constexpr int kOwn = 2;
+    if (node->referenceCount() > kOwn || _database->isRemoved()) return result;
+    // a tile that is a transform gets a group above it
+    osg::ref_ptr<osg::Node> root = node;
+    if (node->asTransform()) {
+        root = new Carrier;
+        root->asGroup()->addChild(node);
     }
     const Expected& known = expected(fileName, options);
-    // the result and this function
-    if (node->referenceCount() == 2) {
-        // a tile that is a transform gets a group above it
-        osg::ref_ptr<osg::Node> root = node;
-        if (node->asTransform()) {
-            root = new Carrier;
-            root->asGroup()->addChild(node);
-        }
-        install(*root, known);
-        return ReadResult(root.get(), result.status());
-    }
-    const auto outcome = SharedTiles::instance().installOnce(*node, *_database, placeText(known.frame), generation,
-                                                             [&] { install(*node, known); });
-    if (outcome == SharedTiles::Outcome::Usable) return result;
-    return unreadable(fileName, "a read callback shares one copy between two places or installations");
-}
-
-void BinReadFileCallback::install(osg::Node& node, const Expected& expected) const {
-    if (!_database->isRemoved()) _database->install(node, expected.frame, expected.parent.get());
+    (void)_database->install(*root, known.frame, known.parent.get());
+    return ReadResult(root.get(), result.status());
 }
 
 void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, InstalledTile* parent,

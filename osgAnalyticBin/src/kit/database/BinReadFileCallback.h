@@ -23,8 +23,8 @@ namespace osgAnalyticBin {
 /// Installs bins on what the DatabasePager reads, in the thread that reads it. Reading itself is left to the callback
 /// that was there before, if any, else to the Registry's, else to OSG. A file that could not be read is not tried again
 /// for a while (FailedReads); the pager then gets nothing at once, and asks again.
-/// With osgDB::Options::CACHE_NODES OSG's object caches are filled and asked as without bins. What they keep has no
-/// bins: the scene gets a copy of its nodes, which share drawables and states with it.
+/// OSG's object caches neither get nor give tiles (osgDB::Options::CACHE_NODES), and a node that a read callback keeps
+/// gets no bins: others may draw it.
 class BinReadFileCallback : public osgDB::ReadFileCallback {
 public:
     /// `frame` is that of files of which expect() says nothing.
@@ -53,15 +53,13 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options,
-                                            unsigned int generation);
+    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options);
     struct Expected {
         TileFrame frame;
         osg::ref_ptr<InstalledTile> parent;
     };
 
     [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
-    void install(osg::Node& node, const Expected& expected) const;
 
     const osg::ref_ptr<Database> _database;
     const Expected _unexpected;
