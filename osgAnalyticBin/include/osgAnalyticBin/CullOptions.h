@@ -24,9 +24,6 @@ enum class Method {
 /// The name that files, options and command lines use: "quadratic", "exact", "sphere", "none".
 [[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
 
-/// Returns: nullopt for an unknown name.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
-
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
     Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude; the default
@@ -136,8 +133,14 @@ struct CullOptions {
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 
-/// The names of the options in cullOptionsFromText(): "method", "horizon" and so on.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::string> cullOptionKeys();
+/// An option of cullOptionsFromText(), for lists.
+struct CullOptionItem {
+    std::string key;      ///< "edges"
+    std::string values;   ///< "on|off"
+    std::string meaning;  ///< A sentence.
+};
+/// All of them.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<CullOptionItem> cullOptionItems();
 
 /// The text that cullOptionsFromText() reads back to the same options. A name of the ground with a blank or a comma is
 /// left out.

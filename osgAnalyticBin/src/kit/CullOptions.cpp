@@ -9,7 +9,6 @@
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
-#include <algorithm>
 #include <array>
 #include <mutex>
 #include <set>
@@ -33,9 +32,6 @@ constexpr Names<SkirtUse, 2> kSkirts{{{SkirtUse::All, "all"}, {SkirtUse::Cracks,
 constexpr Names<ClusterUse, 2> kClusters{{{ClusterUse::Keep, "keep"}, {ClusterUse::Replace, "replace"}}};
 constexpr Names<bool, 2> kShaders{{{true, "plain"}, {false, "declared"}}};
 constexpr Names<IndexUse, 3> kIndexes{{{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
-
-// Methods for comparison, which are in the applications.
-constexpr std::array<const char*, 4> kMovedMethods{"paper", "corners", "box", "orientedbox"};
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr core::Interval kAltitudes{-1e6, 1e6};
@@ -62,49 +58,18 @@ std::optional<T> valueNamed(const Names<T, n>& names, const std::string& name) n
     return std::nullopt;
 }
 
-// "one, two or three"
-std::string alternatives(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 < words.size() ? ", " : " or ";
-        text += words[i];
-    }
-    return text;
-}
-
-bool refuse(const std::string& key, const std::string& value, const std::string& use, std::string& error) {
-    error = "bad " + key + " \"" + value + "\" (use " + use + ")";
-    return false;
-}
-
 // An option whose values have names.
 template <const auto& kNames, auto kOption>
 struct Choice {
-    static bool apply(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    static bool apply(const std::string& value, CullOptions& options) {
         const auto found = valueNamed(kNames, value);
         if (found) options.*kOption = *found;
-        std::vector<std::string> words;
-        for (const auto& known : kNames) words.emplace_back(known.second);
-        return found || refuse(key, value, alternatives(words), error);
+        return found.has_value();
     }
     static std::string text(const CullOptions& options) {
         return options.*kOption == CullOptions().*kOption ? "" : nameOf(kNames, options.*kOption);
     }
 };
-
-bool applyMethod(const char*, const std::string& value, CullOptions& options, std::string& error) {
-    const std::optional<Method> method = methodFromName(value);
-    if (method) options.method = *method;
-    const bool isMoved = std::find(kMovedMethods.begin(), kMovedMethods.end(), value) != kMovedMethods.end();
-    if (isMoved) {
-        error = "method=" + value +
-                " is there for comparison alone, in builds with OSGANALYTICBIN_RESEARCH: osgbinbench --methods " +
-                value;
-    } else if (!method) {
-        error = "unknown method \"" + value + "\" (use quadratic, exact, sphere or none)";
-    }
-    return method.has_value();
-}
 
 std::optional<double> numberWithin(const std::string& value, const core::Interval& range) {
     const auto number = numbersFromText(value, 1);
@@ -112,31 +77,40 @@ std::optional<double> numberWithin(const std::string& value, const core::Interva
     return isWithin ? std::optional<double>((*number)[0]) : std::nullopt;
 }
 
-bool applyExpiry(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+// Two numbers with something between.
+std::optional<std::pair<double, double>> numbersWithin(const std::string& value, const std::string& between,
+                                                       const core::Interval& range) {
+    const std::size_t at = value.find(between);
+    if (at == std::string::npos) return std::nullopt;
+    const auto first = numberWithin(value.substr(0, at), range);
+    const auto second = numberWithin(value.substr(at + between.size()), range);
+    return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
+}
+
+bool applyExpiry(const std::string& value, CullOptions& options) {
     const auto seconds = numberWithin(value, {0.0, kLongestExpiry});
     if (seconds) options.expiry = *seconds;
-    return seconds || refuse(key, value, "seconds from 0 to 86400, e.g. expiry=3", error);
+    return seconds.has_value();
 }
 
 std::string expiryText(const CullOptions& options) {
     return options.expiry == CullOptions::kDefaultExpiry ? "" : numberToText(options.expiry);
 }
 
-bool applyTechniqueMargin(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+bool applyTechniqueMargin(const std::string& value, CullOptions& options) {
     options.techniqueMargin = numberWithin(value, {0.0, kWidestTechnique});
-    return options.techniqueMargin || refuse(key, value, "metres from 0 to 10000, e.g. techniquemargin=50", error);
+    return options.techniqueMargin.has_value();
 }
 
 std::string techniqueMarginText(const CullOptions& options) {
     return options.techniqueMargin ? numberToText(*options.techniqueMargin) : "";
 }
 
-bool applyHorizon(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+bool applyHorizon(const std::string& value, CullOptions& options) {
     const auto altitude = numberWithin(value, kAltitudes);
     if (altitude) options.horizon = *altitude;
     options.horizonUse = altitude ? HorizonUse::Given : value == "off" ? HorizonUse::Off : HorizonUse::Declared;
-    return altitude || value == "off" || value == "declared" ||
-           refuse(key, value, "an altitude in metres, e.g. horizon=-500, or declared or off", error);
+    return altitude || value == "off" || value == "declared";
 }
 
 std::string horizonText(const CullOptions& options) {
@@ -144,14 +118,10 @@ std::string horizonText(const CullOptions& options) {
     return options.horizonUse == HorizonUse::Off ? "off" : "";
 }
 
-bool applyHeights(const char* key, const std::string& value, CullOptions& options, std::string& error) {
-    const std::size_t dots = value.find("..");
-    const auto low = numberWithin(value.substr(0, dots), kAltitudes);
-    const auto high = dots == std::string::npos ? std::nullopt : numberWithin(value.substr(dots + 2), kAltitudes);
-    if (!low || !high || *low > *high) {
-        return refuse(key, value, "two altitudes in metres, low to high, e.g. heights=-500..9000", error);
-    }
-    options.heights = {*low, *high};
+bool applyHeights(const std::string& value, CullOptions& options) {
+    const auto heights = numbersWithin(value, "..", kAltitudes);
+    if (!heights || heights->first > heights->second) return false;
+    options.heights = {heights->first, heights->second};
     return true;
 }
 
@@ -166,19 +136,12 @@ const core::Ellipsoid& wgs84() {
     return ellipsoid;
 }
 
-bool applyGlobe(const char* key, const std::string& value, CullOptions& options, std::string& error) {
-    constexpr core::Interval kRadii{1.0, 1e12};
-    const std::size_t slash = value.find('/');
-    const auto equatorial = numberWithin(value.substr(0, slash), kRadii);
-    const auto polar = slash == std::string::npos ? std::nullopt : numberWithin(value.substr(slash + 1), kRadii);
-    if (osgDB::convertToLowerCase(value) == "wgs84") {
-        options.globe = wgs84();
-    } else if (equatorial && polar) {
-        options.globe.emplace(*equatorial, *polar);
-    } else {
-        return refuse(key, value, "wgs84, or two radii in metres, e.g. globe=1737400/1737400", error);
-    }
-    return true;
+bool applyGlobe(const std::string& value, CullOptions& options) {
+    const auto radii = numbersWithin(value, "/", {1.0, 1e12});
+    if (radii) options.globe.emplace(radii->first, radii->second);
+    const bool isEarth = osgDB::convertToLowerCase(value) == "wgs84";
+    if (isEarth) options.globe = wgs84();
+    return radii || isEarth;
 }
 
 std::string globeText(const CullOptions& options) {
@@ -187,9 +150,9 @@ std::string globeText(const CullOptions& options) {
     return numberToText(options.globe->equatorialRadius()) + '/' + numberToText(options.globe->polarRadius());
 }
 
-bool applyGround(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+bool applyGround(const std::string& value, CullOptions& options) {
     options.ground = value;
-    return !value.empty() || refuse(key, value, "the name of the nodes that are ground", error);
+    return !value.empty();
 }
 
 std::string groundText(const CullOptions& options) {
@@ -199,42 +162,72 @@ std::string groundText(const CullOptions& options) {
 struct KnownItem {
     const char* key;
     const char* values;
-    bool (*apply)(const char* key, const std::string& value, CullOptions& options, std::string& error);
-    std::string (*text)(const CullOptions& options);  // empty: the default
+    bool (*apply)(const std::string& value, CullOptions& options);  // returns: whether the value is allowed
+    std::string (*text)(const CullOptions& options);                // empty: the default
+    const char* meaning;
 };
 
 template <const auto& kNames, auto kOption>
-constexpr KnownItem choice(const char* key, const char* values) {
-    return {key, values, Choice<kNames, kOption>::apply, Choice<kNames, kOption>::text};
+constexpr KnownItem choice(const char* key, const char* values, const char* meaning) {
+    return {key, values, Choice<kNames, kOption>::apply, Choice<kNames, kOption>::text, meaning};
 }
 
 constexpr std::array<KnownItem, 14> kItems{
-    {{"method", "NAME", applyMethod, [](const CullOptions& o) { return std::string(methodName(o.method)); }},
-     {"horizon", "METRES|declared|off", applyHorizon, horizonText},
-     choice<kOnOff, &CullOptions::inheritViewpoint>("inheritviewpoint", "on|off"),
-     choice<kOnOff, &CullOptions::edges>("edges", "on|off"),
-     choice<kOcclusions, &CullOptions::occlusion>("occlusion", "on|off|auto"),
-     {"expiry", "SECONDS", applyExpiry, expiryText},
-     choice<kSkirts, &CullOptions::skirts>("skirts", "cracks|all"),
-     choice<kClusters, &CullOptions::cluster>("cluster", "replace|keep"),
-     {"heights", "LOW..HIGH", applyHeights, heightsText},
-     {"techniquemargin", "METRES", applyTechniqueMargin, techniqueMarginText},
-     choice<kShaders, &CullOptions::plainShaders>("shaders", "declared|plain"),
-     choice<kIndexes, &CullOptions::index>("index", "auto|on|off"),
-     {"globe", "wgs84|EQUATORIAL/POLAR", applyGlobe, globeText},
-     {"ground", "NAME", applyGround, groundText}}};
-
-std::string usage() {
-    std::vector<std::string> words;
-    for (const KnownItem& item : kItems) words.push_back(std::string(item.key) + '=' + item.values);
-    return alternatives(words);
-}
+    {{"method", "quadratic|exact|sphere|none", Choice<kMethods, &CullOptions::method>::apply,
+      [](const CullOptions& options) { return std::string(methodName(options.method)); },
+      "How tiles are culled: by bins, quadratic (default) or exact; sphere leaves OSG's culling alone; none culls "
+      "nothing."},
+     {"horizon", "METRES|declared|off", applyHorizon, horizonText,
+      "Culls tiles behind the horizon of the lowest surface shown. METRES, such as -500: altitude below which nothing "
+      "is drawn; declared: the altitude that the database declares; default declared."},
+     choice<kOnOff, &CullOptions::inheritViewpoint>(
+         "inheritviewpoint", "on|off",
+         "The horizon also for cameras that inherit a view point (shadow passes); default off."),
+     choice<kOnOff, &CullOptions::edges>("edges", "on|off",
+                                         "Tests tiles across an edge of the frustum against the edge too; default on."),
+     choice<kOcclusions, &CullOptions::occlusion>(
+         "occlusion", "on|off|auto",
+         "Culls tiles behind terrain, where the near plane is fixed; auto: while that hides a quarter of the tiles in "
+         "view; default auto."),
+     {"expiry", "SECONDS", applyExpiry, expiryText,
+      "Time, up to 86400, for which finer tiles out of view are kept when the DatabasePager has more than its target; "
+      "default 3, 0 leaves OSG's own rule alone."},
+     choice<kSkirts, &CullOptions::skirts>(
+         "skirts", "cracks|all",
+         "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras below it."),
+     choice<kClusters, &CullOptions::cluster>(
+         "cluster", "replace|keep",
+         "Whether the database's ClusterCullingCallbacks cull nothing (default) or are left in charge."),
+     {"heights", "LOW..HIGH", applyHeights, heightsText,
+      "Range of altitudes in metres of all terrain in the database, for tiles that are in no index; default "
+      "-11500..9000."},
+     {"techniquemargin", "METRES", applyTechniqueMargin, techniqueMarginText,
+      "Declares that osgTerrain tiles with another technique, or moved by shaders, stay within this distance, 0 to "
+      "10000, of the mesh that GeometryTechnique makes; default: other techniques are not culled."},
+     choice<kShaders, &CullOptions::plainShaders>(
+         "shaders", "declared|plain",
+         "plain: declares that all shaders draw all of each triangle where its vertices are; otherwise terrain under a "
+         "shader hides nothing unless the application declares its program; default declared."),
+     choice<kIndexes, &CullOptions::index>(
+         "index", "auto|on|off",
+         "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the background where "
+         "there is none."),
+     {"globe", "wgs84|EQUATORIAL/POLAR", applyGlobe, globeText,
+      "The globe, by its radii in metres, where no CoordinateSystemNode stands above the tiles."},
+     {"ground", "NAME", applyGround, groundText,
+      "The name of the nodes that are the tiles' ground; all else keeps OSG's own culling."}}};
 
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
+    std::string usage;
     for (const KnownItem& item : kItems) {
-        if (key == item.key) return item.apply(item.key, value, options, error);
+        const std::string text = std::string(item.key) + '=' + item.values;
+        usage += (usage.empty() ? "" : ", ") + text;
+        if (key != item.key) continue;
+        if (item.apply(value, options)) return true;
+        error = "bad " + key + " \"" + value + "\" (use " + text + ')';
+        return false;
     }
-    error = "unknown parameter \"" + key + "\" (use " + usage() + ")";
+    error = "unknown parameter \"" + key + "\" (use " + usage + ')';
     return false;
 }
 
@@ -242,10 +235,6 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
 
 const char* methodName(Method method) noexcept {
     return nameOf(kMethods, method);
-}
-
-std::optional<Method> methodFromName(const std::string& name) noexcept {
-    return valueNamed(kMethods, name);
 }
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
@@ -257,10 +246,10 @@ bool CullOptions::operator==(const CullOptions& other) const noexcept {
     return items(*this) == items(other);
 }
 
-std::vector<std::string> cullOptionKeys() {
-    std::vector<std::string> keys;
-    for (const KnownItem& item : kItems) keys.emplace_back(item.key);
-    return keys;
+std::vector<CullOptionItem> cullOptionItems() {
+    std::vector<CullOptionItem> items;
+    for (const KnownItem& item : kItems) items.push_back({item.key, item.values, item.meaning});
+    return items;
 }
 
 std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::string& error) {

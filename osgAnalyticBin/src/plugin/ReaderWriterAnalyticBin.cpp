@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "OptionString.h"
 #include "Photogrammetry.h"
 
 #include <osgAnalyticBin/BinIndex.h>
@@ -14,14 +13,31 @@
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace {
 
 constexpr const char* kExtension = "analyticbin";
 constexpr const char* kIndexExtension = "bins";
+
+// The items of OSG's option string, which is one for all plugins, that are for bins.
+std::string ownItems(std::string optionString) {
+    std::replace_if(
+        optionString.begin(), optionString.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    std::istringstream items(optionString);
+    std::string own;
+    for (std::string item; items >> item;) {
+        const std::string key = item.substr(0, item.find('='));
+        for (const auto& known : osgAnalyticBin::cullOptionItems()) {
+            if (key == known.key && item != key) own += item + ' ';
+        }
+    }
+    return own;
+}
 
 // The database under its own name stays as it is in OSG's object cache: without bins. With them it is kept there by OSG
 // under the name that ends in .analyticbin.
@@ -44,46 +60,8 @@ public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
         supportsExtension(kIndexExtension, "The bins of a whole terrain database, made by osgbinconv --index");
-        supportsOption("method=quadratic|exact|sphere|none",
-                       "How tiles are culled: by bins, quadratic (default) or exact; sphere leaves OSG's culling "
-                       "alone; none culls nothing.");
-        supportsOption("horizon=METRES|declared|off",
-                       "Culls tiles behind the horizon of the lowest surface shown. METRES: altitude below which "
-                       "nothing is drawn; declared: the altitude that the database declares; default "
-                       "declared.");
-        supportsOption("inheritviewpoint=on|off",
-                       "The horizon also for cameras that inherit a view point (shadow passes); default off.");
-        supportsOption("edges=on|off", "Tests tiles across an edge of the frustum against the edge too; default on.");
-        supportsOption("occlusion=on|off|auto",
-                       "Culls tiles behind terrain, where the near plane is fixed; auto: while that hides a quarter of "
-                       "the tiles in view; default auto.");
-        supportsOption(
-            "expiry=SECONDS",
-            "Time for which finer tiles out of view are kept when the DatabasePager has more than its target; "
-            "default 3, 0 leaves OSG's own rule alone.");
-        supportsOption("heights=LOW..HIGH",
-                       "Range of altitudes in metres of all terrain in the database, for tiles that are in no index; "
-                       "default -11500..9000.");
-        supportsOption(
-            "techniquemargin=METRES",
-            "Declares that osgTerrain tiles with another technique, or moved by shaders, stay within this distance "
-            "of the mesh that GeometryTechnique makes; default: other techniques are not culled.");
-        supportsOption("shaders=declared|plain",
-                       "plain: declares that all shaders draw all of each triangle where its vertices are; otherwise "
-                       "terrain under a shader hides nothing unless the application declares its program; default "
-                       "declared.");
-        supportsOption("index=auto|on|off",
-                       "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the "
-                       "background where there is none.");
-        supportsOption("skirts=cracks|all",
-                       "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
-                       "below it.");
-        supportsOption("globe=wgs84|EQUATORIAL/POLAR",
-                       "The globe, by its radii in metres, where no CoordinateSystemNode stands above the tiles.");
-        supportsOption("ground=NAME",
-                       "The name of the nodes that are the tiles' ground; all else keeps OSG's own culling.");
-        supportsOption("cluster=replace|keep",
-                       "Whether the database's ClusterCullingCallbacks cull nothing (default) or are left in charge.");
+        for (const auto& item : osgAnalyticBin::cullOptionItems())
+            supportsOption(item.key + '=' + item.values, item.meaning);
     }
 
     const char* className() const override { return "analytic bin pseudo-loader"; }
@@ -124,10 +102,7 @@ public:
         if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
 
         std::string error;
-        const auto shared = osgAnalyticBin::plugin::parsedOptionString(options ? options->getOptionString() : "");
-        // OSG prints the message of a failed read; a second line would say no more.
-        if (!shared.nearMisses.empty()) return ReadResult("analyticbin: " + complaint(shared));
-        const std::string text = shared.items + request.parameters;
+        const std::string text = ownItems(options ? options->getOptionString() : "") + request.parameters;
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         if (!cullOptions) return ReadResult("analyticbin: " + error);
         const osg::ref_ptr<osgDB::Options> uncached = withoutNodeCache(options);
@@ -136,8 +111,6 @@ public:
         if (!node) return result;
         const std::size_t installed = osgAnalyticBin::installBins(*node, *cullOptions, request.name, options);
         report(installed, *cullOptions, request.name, osgAnalyticBin::isIndexAwaited(*node));
-        // the plugins that the database needs are loaded by now, and their options are known
-        if (options) reportUnknown(osgAnalyticBin::plugin::parsedOptionString(options->getOptionString()));
         return node.get();
     }
 
@@ -163,22 +136,6 @@ private:
 
     static bool isIndex(const std::string& fileName) {
         return osgDB::getLowerCaseFileExtension(fileName) == kIndexExtension;
-    }
-
-    static std::string complaint(const osgAnalyticBin::plugin::OptionString& shared) {
-        const auto& [item, meant] = shared.nearMisses.front();
-        const bool isKey = item == meant;
-        return "the option string has \"" + item + "\"; " +
-               (isKey ? "give it a value, as in " : "if it is for the bins, write ") + meant + "=...";
-    }
-
-    static void reportUnknown(const osgAnalyticBin::plugin::OptionString& shared) {
-        for (const std::string& item : shared.unknown) {
-            OSG_WARN << "analyticbin: \"" << item
-                     << "\" in the option string is known neither to osgAnalyticBin nor to another plugin that is "
-                        "loaded."
-                     << std::endl;
-        }
     }
 
     static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name,

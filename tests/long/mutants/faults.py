@@ -38,9 +38,6 @@ FAULTS = [
           "kRounding = 16.0 *", "kRounding = 0.0 *", CORE, "HullSeparation*"),
     Fault("no tolerance of longitudes", "src/core/GeodeticBin.cpp",
           "kAngleTolerance = 2e-15", "kAngleTolerance = 0.0", CORE, "GeodeticBin.*"),
-    Fault("an option is not listed", "src/plugin/ReaderWriterAnalyticBin.cpp",
-          'supportsOption("skirts=cracks|all",', 'supportsOption("index=auto|on|off",', PLUGIN, "OptionString.*"),
-
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 

@@ -68,7 +68,7 @@ TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
     const Outcome outcome = test::runOsgconv(
         test::quoted(_database + ".(method=cube).analyticbin") + ' ' + test::quoted(copy), Modules::Present);
     EXPECT_NE(outcome.code, 0);
-    EXPECT_EQ(outcome.linesWith("unknown method \"cube\" (use quadratic, exact, sphere or none)"), 1) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("bad method \"cube\" (use method=quadratic|exact|sphere|none)"), 1) << outcome.text;
     EXPECT_FALSE(fs::exists(copy));
 }
 

@@ -77,7 +77,7 @@ void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Datab
 // Starts to make an index, if tiles want one.
 void makeIndex(osg::Node& node, TileBoundsSource* index) {
     bool isWanted = false;
-    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+    forEachDatabase(node, [&](osg::Node&, Database& database) {
         const bool isWantedHere = index && database.has(Finding::IndexWanted);
         database.setMaking(isWantedHere ? index : nullptr);
         isWanted = isWanted || isWantedHere;
