@@ -82,8 +82,9 @@ struct CullOptions {
     /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
     OcclusionUse occlusion = OcclusionUse::Auto;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last in view, when it has more
-    /// PagedLODs than its target; 0: OSG's own rule. Spheres keep many tiles beside the view, bins do not: without this
-    /// time, turning the camera away and back would read the same files again.
+    /// PagedLODs than its target; 0: OSG's own rule. Times that the database or the application sets stay. Spheres keep
+    /// many tiles beside the view, bins do not: without this time, turning the camera away and back would read the same
+    /// files again.
     double expiry = kDefaultExpiry;
 
     /// What bins hold of skirts.

@@ -109,7 +109,7 @@ TEST_F(ForeignDatabase, HeightsAreThoseOfTheOptionsAndALeafsHighIsItsOwn) {
 
 TEST_F(ForeignDatabase, InstallingAgainReplacesAndSpheresGiveAllBack) {
     load();
-    EXPECT_EQ(_root->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
+    EXPECT_DOUBLE_EQ(_root->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
     EXPECT_EQ(installBins(*_scene, withMethod(Method::Exact)), 4u);
     for (osg::Node* node : {static_cast<osg::Node*>(_root), _south.get(), _single.get()}) {
         ASSERT_NE(installedOn(*node), nullptr);

@@ -188,7 +188,7 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
     for (const char* method : {"quadratic", "exact", "quadratic"}) {
         EXPECT_EQ(installBins(*root, optionsOf(std::string("method=") + method)), 1u) << method;
         EXPECT_EQ(tile->getCullCallback()->getNestedCallback(), cluster.get()) << "and one of ours, not two";
-        EXPECT_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
+        EXPECT_DOUBLE_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
     }
     EXPECT_EQ(cluster->getDeviation(), -0.5f);
     EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../OwnUserData.h"
-
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/NodeVisitor>
@@ -29,8 +27,10 @@ BinStatistics& BinStatistics::of(osg::NodeVisitor& visitor) {
     if (const BinStatistics* known = find(visitor)) return const_cast<BinStatistics&>(*known);
     osg::ref_ptr<BinStatistics> made = new BinStatistics;
     made->_owner = &visitor;
-    // clones may cull in other threads
-    ownUserData(visitor);
+    // clones share it, and may cull in other threads
+    const osg::UserDataContainer* const shared = visitor.getUserDataContainer();
+    if (shared && shared->referenceCount() > 1)
+        visitor.setUserDataContainer(osg::clone(shared, osg::CopyOp::SHALLOW_COPY));
     visitor.getOrCreateUserDataContainer()->addUserObject(made.get());
     return *made;
 }

@@ -3,17 +3,29 @@
 
 #pragma once
 
-namespace osg {
-class PagedLOD;
-}
+#include "../PagedChildren.h"
+
+#include <osg/PagedLOD>
+
+#include <cmath>
 
 namespace osgAnalyticBin {
 
-/// Raises the minimum expiry time of the node's paged children to `seconds`; longer ones stay. What it overrides is
-/// remembered with the node.
-void raiseExpiry(osg::PagedLOD& node, double seconds);
+/// Has the node's paged children expire `seconds` after they were last in view, where nobody has set a time: OSG's own
+/// is 0.
+inline void raiseExpiry(osg::PagedLOD& node, double seconds) {
+    for (unsigned int i = 0; seconds > 0.0 && i < node.getNumMinimumExpiryTimes(); ++i) {
+        // a number that nobody else sets
+        if (isPaged(node, i) && node.getMinimumExpiryTime(i) == 0.0)
+            node.setMinimumExpiryTime(i, std::nextafter(seconds, HUGE_VAL));
+    }
+}
 
-/// Undoes raiseExpiry() with the same number; times that were changed since then stay.
-void restoreExpiry(osg::PagedLOD& node, double seconds);
+/// Undoes raiseExpiry() with the same number; other times stay.
+inline void restoreExpiry(osg::PagedLOD& node, double seconds) {
+    for (unsigned int i = 0; i < node.getNumMinimumExpiryTimes(); ++i) {
+        if (node.getMinimumExpiryTime(i) == std::nextafter(seconds, HUGE_VAL)) node.setMinimumExpiryTime(i, 0.0);
+    }
+}
 
 }  // namespace osgAnalyticBin
