@@ -3,8 +3,12 @@
 
 #pragma once
 
+#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/InstallRequest.h>
+
+#include <osg/NodeCallback>
+
+#include <string>
 
 namespace osgAnalyticBin {
 
@@ -13,20 +17,43 @@ namespace osgAnalyticBin {
 /// it once, and draws the database with its own spheres.
 /// Then it becomes an event callback of its node, so that it is saved with a scene: viewers that draw on demand draw
 /// frames as long as there is an update callback.
-class OSGANALYTICBIN_EXPORT InstallBinsCallback : public InstallRequest {
+class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
 public:
     /// Installs bins with these options.
-    explicit InstallBinsCallback(const CullOptions& options = {}) : InstallRequest(options) {}
+    explicit InstallBinsCallback(const CullOptions& options = {}) : _options(options) {}
     /// Copies the options; the copy installs bins even if the original has done so.
-    InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+    InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY)
+        : osg::Object(other, copyop),
+          osg::Callback(other, copyop),
+          osg::NodeCallback(other, copyop),
+          _options(other._options) {}
 
-    /// Called by OSG's update traversal, then by its event traversals.
+    /// Read at the first update traversal.
+    void setCullOptions(const CullOptions& options) { _options = options; }
+    /// Default: CullOptions().
+    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
+
+    /// The options as text; what the serializer stores.
+    void setOptionsText(const std::string& text) { _options = storedCullOptions(text); }
+    /// toText() of the options.
+    [[nodiscard]] std::string getOptionsText() const { return toText(_options); }
+
+    /// Marks bins as installed: nothing is done from then on.
+    void setDone() { _done = true; }
+    /// Whether bins are installed.
+    [[nodiscard]] bool isDone() const { return _done; }
+
+    /// Called by OSG's update traversal, then by its event traversals. Defined with installBins().
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
     META_Object(osgAnalyticBin, InstallBinsCallback);
 
 protected:
     ~InstallBinsCallback() override = default;
+
+private:
+    CullOptions _options;
+    bool _done = false;
 };
 
 }  // namespace osgAnalyticBin

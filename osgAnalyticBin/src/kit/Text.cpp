@@ -7,11 +7,6 @@
 #include <charconv>
 #include <cmath>
 
-#if !defined(__cpp_lib_to_chars)
-#include <locale>
-#include <sstream>
-#endif
-
 namespace osgAnalyticBin {
 
 namespace {
@@ -19,14 +14,8 @@ namespace {
 // Reads the whole of a text without blanks.
 std::optional<double> numberFromText(const char* begin, const char* end) {
     double value = 0.0;
-#if defined(__cpp_lib_to_chars)
     const auto [next, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || next != end) return std::nullopt;
-#else  // the C++ library of macOS reads integers alone
-    std::istringstream text(std::string(begin, end));
-    text.imbue(std::locale::classic());
-    if (*begin == '+' || !(text >> value) || text.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
-#endif
     if (!std::isfinite(value)) return std::nullopt;
     return value;
 }

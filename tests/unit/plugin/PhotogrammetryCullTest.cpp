@@ -182,6 +182,7 @@ std::string flagsOf(osg::Node& node) {
 
 TEST_F(FalseSpheres, AreAsBeforeWhenBinsAreTakenOff) {
     const osg::ref_ptr<osg::Node> scene = read("method=sphere");
+    removeBins(*scene);
     const std::string before = flagsOf(*scene);
     EXPECT_GT(installBins(*scene, {}), 0U);
     EXPECT_NE(flagsOf(*scene), before);
@@ -218,15 +219,15 @@ TEST_F(FalseSpheres, KeepBrokenFilesApart) {
 
 // A mast that stands out of the tile's sphere, below a view that looks over the sphere.
 TEST_F(FalseSpheres, ShowWhatAnApplicationAddsBelowATile) {
-    Flown set(read());
-    osg::MatrixTransform& set = *setIn(*set.scene);
+    Flown flown(read());
+    osg::MatrixTransform& set = *setIn(*flown.scene);
     auto& tile = dynamic_cast<osg::PagedLOD&>(*set.getChild(0));
     const osg::Vec3d top(tile.getCenter() + osg::Vec3(0, 0, 1.3F * tile.getRadius()));
     const osg::Vec3d eye(top - osg::Vec3d(3000, 0, 0));
     const osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), set.getMatrix());
     const CullView view =
         CullView::lookAt(eye * set.getMatrix(), (top + osg::Vec3d(0, 0, 510)) * set.getMatrix(), up, 20.0);
-    ASSERT_TRUE(set.drawn(view).empty());
+    ASSERT_TRUE(flown.drawn(view).empty());
     const osg::ref_ptr<osg::Geometry> mast = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     vertices->push_back(osg::Vec3(top) - osg::Vec3(0, 0, 9));
@@ -234,8 +235,8 @@ TEST_F(FalseSpheres, ShowWhatAnApplicationAddsBelowATile) {
     mast->setVertexArray(vertices);
     mast->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
     ASSERT_TRUE(tile.getChild(0)->asGroup()->addChild(mast));
-    EXPECT_EQ(set.drawn(view).count(mast), 1U);
-    EXPECT_EQ(set.drawn(view).count(mast), 1U);
+    EXPECT_EQ(flown.drawn(view).count(mast), 1U);
+    EXPECT_EQ(flown.drawn(view).count(mast), 1U);
 }
 
 TEST_F(FalseSpheres, LoseNothingInClones) {
@@ -251,6 +252,7 @@ TEST_F(FalseSpheres, LoseNothingInClones) {
 TEST_F(FalseSpheres, MayBeTheRootOfTheScene) {
     writeMetadata("", "0,0,0");
     const osg::ref_ptr<osg::Node> scene = read("method=sphere");
+    removeBins(*scene);
     const std::string before = flagsOf(*scene);
     EXPECT_GT(installBins(*scene, {}), 0U);
     EXPECT_GT(setCullOptions(*scene, {}), 0U);

@@ -16,7 +16,6 @@
 #include "GroundBelow.h"
 #include "SelectionWalk.h"
 
-
 #include <osg/CoordinateSystemNode>
 #include <osg/PagedLOD>
 #include <osg/Transform>

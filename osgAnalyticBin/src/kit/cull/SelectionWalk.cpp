@@ -13,7 +13,6 @@
 #include "BinCulling.h"
 #include "CullCallbacks.h"
 
-
 #include <osg/PagedLOD>
 #include <osgUtil/CullVisitor>
 

@@ -26,7 +26,7 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallRequest.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -50,7 +50,7 @@ public:
     DeclaredHorizon(osg::Node& node, CullOptions& options)
         : _options(options), _outerUse(options.horizonUse), _outer(options.horizon) {
         for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
-            const osg::ref_ptr<InstallRequest> request = findCallback<InstallRequest>(first);
+            const osg::ref_ptr<InstallBinsCallback> request = findCallback<InstallBinsCallback>(first);
             if (request) use(*request);
         }
     }
@@ -62,7 +62,7 @@ public:
     DeclaredHorizon& operator=(const DeclaredHorizon&) = delete;
 
 private:
-    void use(InstallRequest& request) {
+    void use(InstallBinsCallback& request) {
         const CullOptions& declared = request.getCullOptions();
         if (_options.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
             _options.horizonUse = HorizonUse::Given;
@@ -203,7 +203,11 @@ void BinInstaller::installAt(osg::Node& root) {
     const bool isNamed = !isGlobe && _options.globe;
     if (isNamed) beginNamedGlobe(root);
     root.accept(*this);
-    if (_options.method == Method::None) NoCulling::place(root);
+    if (_options.method == Method::None) {
+        takeOffFirst<NoCulling>(root);
+        const osg::ref_ptr<NoCulling> callback = new NoCulling;
+        putInFront(root, *callback);
+    }
     // the tiles of a globe without any are still to come
     if (isNamed && _installed == 0 && _paging.empty()) _coverage->clear();
     finish();
@@ -285,7 +289,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
     // the new bin is where the tile stands now; there is a gap where it stood
     if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
     removeCallbacks(tile, _nested);
-    NoCulling::remove(*tile.node);
+    takeOffFirst<NoCulling>(*tile.node);
     if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent);
     visitWithoutBin(*tile.node, true);
 }
@@ -332,7 +336,7 @@ void BinInstaller::tellAbove(const DrawnState& drawn) const {
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
         _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
-    NoCulling::remove(node);
+    takeOffFirst<NoCulling>(node);
     // a tile's own meshes are not visited
     if (isTile && installsBins()) tellAbove(drawnStateOfTile(node));
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));

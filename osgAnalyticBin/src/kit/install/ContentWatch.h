@@ -25,7 +25,7 @@ namespace osgAnalyticBin {
 /// with a watch. It knows the meshes that the tile's bin was fitted to, and below which tile the node was then: what
 /// has come there since, be it from below another tile or from a file that was read for an earlier bin, is new content.
 /// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
-class OSGANALYTICBIN_EXPORT ContentWatch final : public BoundWatch {
+class OSGANALYTICBIN_EXPORT ContentWatch : public BoundWatch {
 public:
     ContentWatch() = default;
     /// A copy watches nothing.
@@ -38,7 +38,7 @@ public:
         static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted, InstalledTile* above,
                           InstalledTile* tile);
 
-    /// Removes the watch.
+    /// Removes the watch, that of a derived class, too.
     static void remove(osg::Node& node);
 
     /// Whether the node has a watch that found content among its children which the bin was not fitted to.

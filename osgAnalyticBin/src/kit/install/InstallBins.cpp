@@ -8,8 +8,10 @@
 #include "BinInstaller.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/CoordinateSystemNode>
+#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
@@ -143,6 +145,20 @@ bool waitForIndex(osg::Node& node, double seconds) {
         bringUpToDate(at, database);
     });
     return isWhole;
+}
+
+void InstallBinsCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (!isDone()) {
+        installBins(*node, getCullOptions());
+        setDone();
+    }
+    const osg::ref_ptr<osg::Callback> self(this);
+    traverse(node, nv);
+    // a clone of the node may share it
+    constexpr int kOwn = 2;  // references: the node's and this one
+    if (nv->getVisitorType() != osg::NodeVisitor::UPDATE_VISITOR || referenceCount() > kOwn) return;
+    node->removeUpdateCallback(this);
+    node->addEventCallback(this);
 }
 
 std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {

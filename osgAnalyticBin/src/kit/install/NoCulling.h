@@ -3,8 +3,14 @@
 
 #pragma once
 
-#include <osg/Node>
+#include "../cull/BinCulling.h"
+
+#include <osg/CullStack>
+#include <osg/CullingSet>
 #include <osg/NodeCallback>
+#include <osg/NodeVisitor>
+
+#include <optional>
 
 namespace osgAnalyticBin {
 
@@ -14,15 +20,19 @@ namespace osgAnalyticBin {
 class NoCulling final : public osg::NodeCallback {
 public:
     NoCulling() = default;
-    NoCulling(const NoCulling& other, const osg::CopyOp& copyop);
+    NoCulling(const NoCulling& other, const osg::CopyOp& copyop)
+        : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new NoCulling(*this, copyop); }
 
-    /// Adds the callback to the node, in front of its others.
-    static void place(osg::Node& node);
-    /// Removes it.
-    static void remove(osg::Node& node);
-
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        std::optional<CullingMaskScope> mask;
+        std::optional<WithoutClusterCulling> clusters;
+        if (osg::CullStack* const cullStack = nv->asCullStack()) {
+            mask.emplace(*cullStack, osg::CullingSet::NO_CULLING);
+            clusters.emplace(*cullStack);
+        }
+        traverse(node, nv);
+    }
 
 protected:
     ~NoCulling() override = default;

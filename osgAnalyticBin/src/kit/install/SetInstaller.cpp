@@ -7,7 +7,7 @@
 #include "../cull/CullScopes.h"
 #include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"
-#include "../tile/BoundWatch.h"
+#include "ContentWatch.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
@@ -31,11 +31,12 @@ bool holdsBox(const osg::BoundingSphere& sphere, const osg::BoundingBox& box) {
     return holds;
 }
 
-// Knows the box of all that is loaded below a LOD. OSG calls it where something there has changed.
-class LodWatch final : public BoundWatch {
+// Knows the box of all that is loaded below a LOD. OSG calls it where something there has changed. With a scene it is
+// saved as a ContentWatch that watches nothing.
+class LodWatch final : public ContentWatch {
 public:
     LodWatch() = default;
-    LodWatch(const LodWatch& other, const osg::CopyOp& copyop) : BoundWatch(other, copyop) {}
+    LodWatch(const LodWatch& other, const osg::CopyOp& copyop) : ContentWatch(other, copyop) {}
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new LodWatch(*this, copyop); }
 
     [[nodiscard]] static const LodWatch* of(const osg::Node& node) {
@@ -48,10 +49,6 @@ public:
         watch->_previous = before ? before->_previous.get() : node.getComputeBoundingSphereCallback();
         node.setComputeBoundingSphereCallback(watch);
         node.dirtyBound();
-    }
-    static void remove(osg::Node& node) {
-        if (const LodWatch* const watch = of(node))
-            node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
     }
 
     [[nodiscard]] const osg::BoundingBox& loaded() const { return _loaded; }
@@ -92,8 +89,7 @@ public:
     void apply(osg::Node& node) override {
         const LodWatch* const watch = LodWatch::of(node);
         if (!watch) return traverse(node);
-        (void)node.getBound();
-        applyBoundingBox(LodWatch::of(node)->loaded());
+        applyBoundingBox(watch->loaded());
     }
 };
 
@@ -106,6 +102,8 @@ osg::BoundingSphere LodWatch::computeBound(const osg::Node& node) const {
         return of(node)->computeBound(node);
     }
     const osg::BoundingSphere bound = boundOf(node);
+    // otherwise OSG does not call this again when something below changes
+    for (unsigned int i = 0; i < lod.asGroup()->getNumChildren(); ++i) (void)lod.asGroup()->getChild(i)->getBound();
     LoadedBox box;
     lod.traverse(box);
     _loaded = box.getBoundingBox();
@@ -167,7 +165,7 @@ std::size_t installOnSet(osg::Group& set, const CullOptions& options) {
 }
 
 void removeFromLod(osg::Node& node) {
-    LodWatch::remove(node);
+    ContentWatch::remove(node);
     if (!findCallback<LodCullCallback>(node.getCullCallback())) return;
     takeOffFirst<LodCullCallback>(node);
     node.setCullingActive(true);

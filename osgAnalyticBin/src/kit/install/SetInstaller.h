@@ -21,7 +21,7 @@ namespace osgAnalyticBin {
 /// installed.
 std::size_t installOnSet(osg::Group& set, const CullOptions& options);
 
-/// Takes off what was installed on a LOD of a set; other nodes stay as they are.
+/// Takes watches, and what else was installed on a LOD of a set, off a node.
 void removeFromLod(osg::Node& node);
 
 }  // namespace osgAnalyticBin

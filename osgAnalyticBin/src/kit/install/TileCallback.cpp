@@ -123,8 +123,7 @@ void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
     forEachNode(subgraph, [&nested](osg::Node& node) {
         if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
-        ContentWatch::remove(node);
-        NoCulling::remove(node);
+        takeOffFirst<NoCulling>(node);
         removeFromLod(node);
     });
 }
