@@ -25,15 +25,6 @@ template <class F>
 struct HasRemainder<F, std::void_t<decltype(std::declval<const F&>().remainder(std::declval<const ParameterBox&>()))>>
     : std::true_type {};
 
-/// True for a formula that brings its own bound of how far meshes leave it:
-/// `double triangleSagBound(const ParameterBox&, const glm::dvec3& cell) const`.
-template <class F, class = void>
-struct HasTriangleSagBound : std::false_type {};
-template <class F>
-struct HasTriangleSagBound<F, std::void_t<decltype(std::declval<const F&>().triangleSagBound(
-                                  std::declval<const ParameterBox&>(), std::declval<const glm::dvec3&>()))>>
-    : std::true_type {};
-
 /// A mapping from its formula alone. F is copyable and has
 ///
 ///     template <class T> Vec3<T> operator()(T u, T v, T w) const
@@ -85,17 +76,6 @@ public:
         }
     }
 
-    /// How far a triangle mesh leaves the mapped box at most, when its vertices are the mapping of positions in the box
-    /// and no triangle is wider than `cell` in any parameter: the margin that a bin of such a mesh needs.
-    /// Source: doc/theory/mappings.md, section 7.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
-    [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
-        if constexpr (HasTriangleSagBound<F>::value) {
-            return _formula.triangleSagBound(box, cell);
-        } else {
-            return largestOverPieces(box, cell, [](const auto& f) { return core::triangleSagBound(f); });
-        }
-    }
-
 private:
     // The formula on variables that carry their derivatives up to an order in each of the three.
     template <std::size_t order>
@@ -114,24 +94,17 @@ private:
     }
 
     [[nodiscard]] double enclosedBound(const ParameterBox& box) const noexcept {
-        const double bound =
-            largestOverPieces(box, box.halfSize, [](const auto& f) { return thirdDifferentialBound(f); });
-        const glm::dvec3& c = box.center;
-        const double rounding =
-            modelRounding(enclosed(box.halfSize, {c.x, c.y, c.z}), value(c), jacobian(c), hessians(c), box.halfSize);
-        return bound / 6.0 + rounding;
-    }
-
-    template <class Bound>
-    [[nodiscard]] double largestOverPieces(const ParameterBox& box, const glm::dvec3& step, const Bound& bound) const {
         const auto n = static_cast<std::size_t>(_pieces);
         double largest = 0.0;
         for (std::size_t i = 0; i < n * n * n; ++i) {
             const Vec3<IntervalNumber> ranges{piece(box, 0, i % n), piece(box, 1, i / n % n),
                                               piece(box, 2, i / (n * n))};
-            largest = std::max(largest, bound(enclosed(step, ranges)));
+            largest = std::max(largest, thirdDifferentialBound(enclosed(box.halfSize, ranges)));
         }
-        return largest;
+        const glm::dvec3& c = box.center;
+        const double rounding =
+            modelRounding(enclosed(box.halfSize, {c.x, c.y, c.z}), value(c), jacobian(c), hessians(c), box.halfSize);
+        return largest / 6.0 + rounding;
     }
 
     [[nodiscard]] Vec3<TaylorInterval> enclosed(const glm::dvec3& step, const Vec3<IntervalNumber>& ranges) const {
