@@ -5,7 +5,6 @@
 
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <functional>
 #include <string>
@@ -46,15 +45,6 @@ void printIndex(const std::string& file);
 /// Makes the index of a database anew, in memory, and compares the one beside it. Says in a line that they agree.
 /// Throws Failure where they do not.
 void checkIndex(const DatabaseFiles& files, const WalkOptions& options);
-
-/// Whether a root file is the metadata of a photogrammetry set, "metadata.xml".
-[[nodiscard]] bool isPhotogrammetry(const std::string& file);
-
-/// Writes "metadata.xml.bins" beside the metadata of a photogrammetry set. Throws Failure or Interrupted.
-void writeBoxIndex(const std::string& metadataFile, const WalkOptions& options);
-
-/// Compares "metadata.xml.bins" with the set. Throws Failure when it does not fit, or Interrupted.
-void checkBoxIndex(const std::string& metadataFile, const WalkOptions& options);
 
 struct CopyOptions {
     bool overwrite = false;

@@ -27,16 +27,22 @@ namespace {
 // Of one file's record; more is damage.
 constexpr std::uint32_t kMostBytes = std::uint32_t{1} << 28;
 
-constexpr const char* kHead = "osgBinsPart 4\n";
+constexpr const char* kHead = "osgBinsPart 5\n";
 
 /// One description of the bytes for both directions.
+template <class Stream, class Surface>
+void passSurface(Stream& s, Surface& surface) {
+    s.bin(surface.bin);
+    for (auto& low : surface.edgeLow) s.number(low);
+    s.number(surface.skirt);
+    s.flag(surface.isEmpty);
+    s.flag(surface.isScalable);
+    s.flag(surface.isInMap);
+}
+
 template <class Stream, class Tile>
 void passTile(Stream& s, Tile& tile) {
-    s.bin(tile.surface.bin);
-    for (auto& low : tile.surface.edgeLow) s.number(low);
-    s.number(tile.surface.skirt);
-    s.flag(tile.surface.isScalable);
-    s.flag(tile.surface.isInMap);
+    passSurface(s, tile.surface);
     s.number(tile.fingerprint);
     s.number(tile.parent);
 }
@@ -69,6 +75,7 @@ void passRecord(Stream& s, Record& record) {
     s.flag(record.hasOtherContent);
     s.count(record.tiles);
     for (auto& tile : record.tiles) passTile(s, tile);
+    passSurface(s, record.beside);
     s.count(record.links);
     for (auto& link : record.links) passLink(s, link);
 }

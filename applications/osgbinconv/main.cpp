@@ -7,6 +7,7 @@
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
 
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
@@ -106,15 +107,6 @@ void prepareProcess() {
     osgAnalyticBin::indexing::checkAllReads();
 }
 
-ExitCode runOnPhotogrammetry(const Arguments& arguments) {
-    const std::string& file = arguments.files.front();
-    if (arguments.files.size() == 2) throw UsageError("photogrammetry sets are not copied; give --index");
-    if (arguments.keepsRecords) throw UsageError("--keep-records is not for photogrammetry sets; leave it out");
-    if (arguments.isIndex) osgbinconv::writeBoxIndex(file, arguments.walk);
-    if (arguments.isCheck) osgbinconv::checkBoxIndex(file, arguments.walk);
-    return kSucceeded;
-}
-
 ExitCode run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{kDescription, "osgbinconv"};
@@ -128,9 +120,11 @@ ExitCode run(int argc, char** argv) {
         osgbinconv::printIndex(file);
         return kSucceeded;
     }
-    if (osgbinconv::isPhotogrammetry(file)) return runOnPhotogrammetry(arguments);
     const DatabaseFiles files(file);
     if (arguments.files.size() == 2) {
+        if (osgAnalyticBin::isMetadataName(file)) {
+            throw UsageError("photogrammetry sets are not copied; give --index");
+        }
         arguments.copy.keepClusters = arguments.cluster == "keep";
         osgbinconv::copyDatabase(files, arguments.files[1], arguments.copy, arguments.walk);
     }

@@ -4,10 +4,9 @@
 #include "../kit/WorkQueue.h"
 #include "FileSurvey.h"
 
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/Failure.h>
 
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -34,8 +33,9 @@ struct Done {
 class Walk {
 public:
     Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, Images images)
-        : _files(files), _images(images), _observer(observer) {
+        : _files(files), _images(images), _isSet(isMetadataName(files.rootFile())), _observer(observer) {
         for (FileRecord& record : known) _known[record.file] = std::move(record);
+        if (_isSet) _known.erase("");  // tiles may have been added
     }
 
     /// Throws what a thread throws.
@@ -57,19 +57,21 @@ private:
         if (known != _known.end() && known->second.stamp == stamp && known->second.place == job.place) {
             return {known->second, true};
         }
-        FileRecord record;
-        std::string error;
-        if (const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error)) {
-            record = surveyFile(*scene, job.file, job.place, _files);
-        } else if (job.file.empty()) {
-            throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
-        }
+        FileRecord record = recordOf(job);
         record.file = job.file;
         record.stamp = stamp;
         record.place = job.place;
-        const std::lock_guard<std::mutex> guard(_keepMutex);
-        _observer.keep(record);
         return {std::move(record), false};
+    }
+
+    FileRecord recordOf(const Job& job) const {
+        if (_isSet && job.file.empty()) return surveyMetadata(_files);
+        std::string error;
+        const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error);
+        if (scene && _isSet) return surveyBoxes(*scene, job.file);
+        if (scene) return surveyFile(*scene, job.file, job.place, _files);
+        if (!job.file.empty()) return {};
+        throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
     }
 
     void finish(Done done, double share) {
@@ -98,9 +100,9 @@ private:
 
     const DatabaseFiles& _files;
     const Images _images;
+    const bool _isSet;  // of photogrammetry
     WalkObserver& _observer;
     std::map<std::string, FileRecord> _known;
-    std::mutex _keepMutex;
 
     WorkQueue<Job> _queue;
     std::map<std::string, FilePlace> _places;
@@ -110,8 +112,6 @@ private:
 }  // namespace
 
 WalkObserver::~WalkObserver() = default;
-
-void WalkObserver::keep(const FileRecord&) {}
 
 void WalkObserver::done(const FileRecord&, bool, double) {}
 

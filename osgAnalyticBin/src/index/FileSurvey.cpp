@@ -3,10 +3,12 @@
 
 #include "FileSurvey.h"
 
+#include "../kit/surface/LodContent.h"
+
 #include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
-#include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/PagedLOD>
 #include <osg/ProxyNode>
@@ -19,10 +21,6 @@
 #include <set>
 
 namespace osgAnalyticBin::indexing {
-
-using osgAnalyticBin::FoundTile;
-using osgAnalyticBin::TileFrame;
-using osgAnalyticBin::TileSurface;
 
 namespace {
 
@@ -44,8 +42,7 @@ TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
     if (!tile.frame.ellipsoid) return whole;
     bool isFirst = true;
     for (const auto& mesh : tile.meshes) {
-        const TileSurface part =
-            osgAnalyticBin::tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
+        const TileSurface part = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
         if (!part.bin.valid()) return {};
         whole.isInMap = part.isInMap;
         if (isFirst) whole.edgeLow = part.edgeLow;
@@ -89,7 +86,7 @@ private:
     const Nodes& _links;
 };
 
-class Survey : public osgAnalyticBin::TileFinder {
+class Survey : public TileFinder {
 public:
     Survey(const DatabaseFiles& files, const std::string& file, const FilePlace& place)
         : TileFinder(frameOf(place, file)), _files(files), _sampleRatio(place.sampleRatio) {
@@ -106,7 +103,7 @@ protected:
         if (tile.frame.file != record.file) return;
         tiles.insert(tile.node.get());
         const auto ordinal = static_cast<std::int32_t>(record.tiles.size());
-        record.tiles.push_back({surfaceOf(tile, _sampleRatio), osgAnalyticBin::tileFingerprint(tile), _tile});
+        record.tiles.push_back({surfaceOf(tile, _sampleRatio), tileFingerprint(tile), _tile});
         if (const auto* paged = dynamic_cast<const osg::PagedLOD*>(tile.node.get())) link(*paged, ordinal);
         const std::int32_t outer = _tile;
         _tile = ordinal;
@@ -132,7 +129,7 @@ private:
             const std::string& name = paged.getFileName(i);
             if (name.empty()) continue;
             requireOwnFolder(paged, name);
-            const std::string file = osgAnalyticBin::pagedFilePath(record.file, name);
+            const std::string file = pagedFilePath(record.file, name);
             record.links.push_back({_files.checked(file, record.file), tile,
                                     placeOf(frame(), frame().isBelowTile || tile >= 0, _sampleRatio)});
         }
@@ -156,6 +153,14 @@ private:
     std::int32_t _tile = -1;
 };
 
+TileSurface surfaceOf(const MeshBox& box) {
+    TileSurface surface;
+    surface.bin = box.bin();
+    surface.isEmpty = box.isEmpty();
+    surface.isInMap = true;
+    return surface;
+}
+
 }  // namespace
 
 TileFrame frameOf(const FilePlace& place, const std::string& file) {
@@ -178,6 +183,33 @@ FileRecord surveyFile(osg::Node& scene, const std::string& file, const FilePlace
     survey.record.isRead = true;
     survey.record.hasOtherContent = other.isFound;
     return std::move(survey.record);
+}
+
+FileRecord surveyBoxes(osg::Node& scene, const std::string& file) {
+    const LodContent content = findLods(scene);
+    FileRecord record;
+    record.isRead = true;
+    record.beside = surfaceOf(content.beside);
+    for (const FoundLod& lod : content.lods) {
+        const auto ordinal = static_cast<std::int32_t>(record.tiles.size());
+        record.tiles.push_back({surfaceOf(lod.own), 0, lod.parent ? static_cast<std::int32_t>(*lod.parent) : -1});
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(lod.node);
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i) {
+            if (isPagedChildOf(*paged, i))
+                record.links.push_back({pagedFilePath(file, paged->getFileName(i)), ordinal, {}});
+        }
+    }
+    return record;
+}
+
+FileRecord surveyMetadata(const DatabaseFiles& files) {
+    std::string error;
+    FileRecord record;
+    record.isRead = true;
+    for (const std::string& root : findPhotogrammetryFiles(files.rootFile(), error).roots)
+        record.links.push_back({root, -1, {}});
+    if (record.links.empty()) throw Failure(error);
+    return record;
 }
 
 }  // namespace osgAnalyticBin::indexing

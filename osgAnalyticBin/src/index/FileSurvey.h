@@ -18,4 +18,11 @@ namespace osgAnalyticBin::indexing {
 [[nodiscard]] FileRecord surveyFile(osg::Node& scene, const std::string& file, const FilePlace& place,
                                     const DatabaseFiles& files);
 
+/// The same of a file of a photogrammetry set.
+[[nodiscard]] FileRecord surveyBoxes(osg::Node& scene, const std::string& file);
+
+/// The record of the metadata of a photogrammetry set, which names the root files of the tiles. Throws Failure when
+/// there are none.
+[[nodiscard]] FileRecord surveyMetadata(const DatabaseFiles& files);
+
 }  // namespace osgAnalyticBin::indexing

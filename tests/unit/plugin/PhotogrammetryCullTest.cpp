@@ -211,9 +211,7 @@ TEST_F(BoxSets, GetAnIndexInTheBackgroundWhichIsUsedAtOnceTheNextTime) {
     const auto kept = keptIndex();
     ASSERT_TRUE(kept);
     EXPECT_EQ(kept->stamps().size(), kept->fileCount());
-    std::string error;
-    const auto byHand = makeBoxIndex(_metadata, 2, {}, error);
-    ASSERT_TRUE(byHand) << error;
+    const auto byHand = madeIndex();
     EXPECT_TRUE(byHand->stamps().empty());
     EXPECT_EQ(withoutStamps(*kept), withoutStamps(*byHand));
 

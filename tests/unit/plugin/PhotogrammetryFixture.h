@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -42,9 +42,12 @@ protected:
 
     void makeIndex() const {
         std::string error;
-        const osg::ref_ptr<BinIndex> index = makeBoxIndex(_metadata, 2, {}, error);
-        ASSERT_TRUE(index) << error;
-        ASSERT_TRUE(index->write(binIndexName(_metadata), error)) << error;
+        ASSERT_TRUE(madeIndex()->write(binIndexName(_metadata), error)) << error;
+    }
+    [[nodiscard]] osg::ref_ptr<BinIndex> madeIndex() const {
+        const indexing::DatabaseFiles files(_metadata);
+        indexing::WalkObserver observer;
+        return indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 2)).index;
     }
 
     [[nodiscard]] osgDB::ReaderWriter::ReadResult readResult(const std::string& options = "") const {

@@ -76,8 +76,10 @@ struct FileRecord {
     bool isRead = false;
     /// Whether the file draws anything that is part of no tile.
     bool hasOtherContent = false;
-    /// In preorder.
+    /// In preorder. Of a photogrammetry set: its LODs, with the boxes of the vertices below each and below no other.
     std::vector<TileRecord> tiles;
+    /// Of a photogrammetry set: the vertices below no LOD.
+    osgAnalyticBin::TileSurface beside;
     /// Files that it pages.
     std::vector<FileLink> links;
 };

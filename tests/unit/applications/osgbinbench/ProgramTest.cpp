@@ -5,7 +5,7 @@
 
 #include "BenchProgram.h"
 
-#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
 
 #include <gtest/gtest.h>
 
@@ -315,9 +315,10 @@ TEST(Program, APhotogrammetrySetLosesNothing) {
                               "tower,47.5012,11.2010,120,47.5008,11.2010,100,20,1,5000\n"
                               "rim,47.5006,11.2025,60,47.5006,11.1990,90,15,1,5000\n"
                               "above,47.5000,11.2000,600,47.5001,11.2000,0,60,1,5000\n");
+    const indexing::DatabaseFiles files(set);
+    indexing::WalkObserver observer;
+    const auto index = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 2)).index;
     std::string error;
-    const auto index = makeBoxIndex(set, 2, {}, error);
-    ASSERT_TRUE(index) << error;
     for (const bool isIndexed : {false, true}) {
         ASSERT_TRUE(!isIndexed || index->write(binIndexName(set), error)) << error;
         const Json methods = bench.run("set", "--methods sphere,quadratic --live 0");

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iterator>
+#include <support/PhotogrammetrySample.h>
 #include <support/Random.h>
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
@@ -123,6 +124,24 @@ TEST_F(Run, KeptRecordsSpareReadingWhatHasNotChanged) {
     EXPECT_LT(bytesOf(partFile()).size(), part.size() + 1000) << "what is replaced is kept";
     fs::remove(partFile());
     EXPECT_EQ(indexed(), changed);
+}
+
+TEST(SetRun, KeptRecordsGiveTheSameBoxes) {
+    TemporaryFolder folder;
+    const std::string set = writePhotogrammetrySample(folder.path());
+    ASSERT_FALSE(set.empty());
+    const auto textOf = [&](const std::string& options) {
+        const Outcome outcome = runBinconv(options + ' ' + test::quoted(set));
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return outcome.text;
+    };
+    (void)textOf("--index --threads 2");
+    const std::string whole = bytesOf(set + ".bins");
+    (void)textOf("--index --keep-records");
+    EXPECT_NE(textOf("--index --keep-records").find(" from an earlier run)"), std::string::npos);
+    EXPECT_EQ(bytesOf(set + ".bins"), whole);
+    (void)textOf("--check");
+    EXPECT_EQ(runBinconv(test::quoted(set) + ' ' + test::quoted(folder / "copy.osgb")).code, 2) << "no copies";
 }
 
 TEST_F(Run, ProgressOfEveryPassEndsAtTheWhole) {
