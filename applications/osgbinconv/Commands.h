@@ -5,7 +5,6 @@
 
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <functional>
 #include <string>

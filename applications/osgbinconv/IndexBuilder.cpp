@@ -7,8 +7,6 @@
 #include "PartFile.h"
 #include "Progress.h"
 
-#include <osgAnalyticBin/index/Failure.h>
-
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -36,10 +34,8 @@ public:
         : _keep(keep), _progress("read", isQuiet) {}
 
     void beforeFile() override { osgAnalyticBin::support::throwIfStopRequested(); }
-    void keep(const FileRecord& record) override {
-        if (_keep) _keep(record);
-    }
     void done(const FileRecord& record, bool isKnown, double share) override {
+        if (!isKnown && _keep) _keep(record);
         isKnown ? _progress.addKnown(record.tiles.size(), share) : _progress.add(record.tiles.size(), share);
     }
     void finish() { _progress.finish(); }

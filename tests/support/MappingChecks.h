@@ -165,27 +165,4 @@ void expectErrorFallsEightfold(const core::AutodiffMapping<F>& mapping, core::Pa
     }
 }
 
-/// No point of a triangle whose corners are mapped leaves the mapped box by more than the bound. Returns: the share of
-/// the bound that this triangle needs.
-template <class F>
-double expectSagHolds(const core::AutodiffMapping<F>& mapping, const core::ParameterBox& box, Random& random) {
-    const glm::dvec3 cell = box.halfSize * random.uniform(0.05, 1.0);
-    const glm::dvec3 first = box.center - box.halfSize + random.uniform() * (2.0 * box.halfSize - cell);
-    std::array<glm::dvec3, 3> corners{};
-    for (glm::dvec3& c : corners) {
-        c = first + cell * glm::dvec3(random.integer(0, 1), random.uniform(), random.integer(0, 1));
-    }
-    const double s = random.uniform();
-    const double t = random.uniform(0.0, 1.0 - s);
-    const auto mixture = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        return a * (1.0 - s - t) + b * s + c * t;
-    };
-    const glm::dvec3 flat = mixture(mapping.value(corners[0]), mapping.value(corners[1]), mapping.value(corners[2]));
-    const glm::dvec3 curved = mapping.value(mixture(corners[0], corners[1], corners[2]));
-    const double bound = mapping.triangleSagBound(box, cell);
-    // Two values and three products are rounded.
-    EXPECT_LE(glm::distance(flat, curved), bound + 1e-14 * (glm::length(flat) + 1.0));
-    return glm::distance(flat, curved) / bound;
-}
-
 }  // namespace osgAnalyticBin::test

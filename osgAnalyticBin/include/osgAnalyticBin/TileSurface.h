@@ -48,9 +48,9 @@ struct TileSurface {
 /// Skirts are recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of
 /// doubt they count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain:
 /// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper
-/// one is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() where
-/// its chords may sag below the centres of curvature, which only those of wide cells on flat ellipsoids do.
-/// Guarantee: on any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
+/// one is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() on an
+/// ellipsoid with |e2| of 0.1 or more, or with heights of a hundredth of the radii or more.
+/// Guarantee: in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
 /// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
 /// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
 /// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges, which are not in

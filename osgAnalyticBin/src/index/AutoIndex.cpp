@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "AutoIndex.h"
+#include "../kit/tile/TileBoundsSource.h"
+#include "Checksum.h"
 
-#include "IndexStore.h"
-
+#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/Failure.h>
-#include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
@@ -15,14 +13,32 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <functional>
+#include <mutex>
+#include <random>
+#include <set>
+#include <thread>
 #include <utility>
 #include <vector>
+
+#if defined(__linux__)
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
 
 namespace osgAnalyticBin {
 
 namespace {
 
+namespace fs = std::filesystem;
 using indexing::DatabaseFiles;
 
 // An index of more files takes more memory in a viewer than the tiles that are shown.
@@ -32,41 +48,233 @@ constexpr std::size_t kMostTiles = 2000000;
 std::string localRoot(const std::string& databaseFileName, const osgDB::Options* options) {
     const std::string root = osgDB::findDataFile(databaseFileName, options);
     std::error_code ignored;
-    const bool isLocal =
-        !root.empty() && !osgDB::containsServerAddress(root) && std::filesystem::is_regular_file(root, ignored);
+    const bool isLocal = !root.empty() && !osgDB::containsServerAddress(root) && fs::is_regular_file(root, ignored);
     const auto& archives = osgDB::Registry::instance()->getArchiveExtensions();
     const std::string extension = osgDB::getLowerCaseFileExtension(root);
     return isLocal && std::find(archives.begin(), archives.end(), extension) == archives.end() ? root : std::string();
 }
 
+// Whether all files are those that an index with stamps was made from. `checkpoint`: called for each file; what it
+// throws ends the comparison. Cost: one call of the file system a file.
+bool isCurrent(const BinIndex& index, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
+    const BinIndex::Stamps& stamps = index.stamps();
+    return std::all_of(stamps.begin(), stamps.end(), [&](const auto& stamp) {
+        checkpoint();
+        return files.stampOf(stamp.first) == stamp.second;
+    });
+}
+
+std::string cacheFolder() {
+#if defined(_WIN32)
+    const char* const local = std::getenv("LOCALAPPDATA");
+    return local && *local ? std::string(local) + "/osgAnalyticBin" : std::string();
+#else
+    const char* const xdg = std::getenv("XDG_CACHE_HOME");
+    if (xdg && *xdg == '/') return std::string(xdg) + "/osgAnalyticBin";
+    const char* const home = std::getenv("HOME");
+    if (home && *home == '/') return std::string(home) + "/.cache/osgAnalyticBin";
+    return {};
+#endif
+}
+
+// The file in the user's cache folder that keeps the index of a database:
+// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.bins", or below "$HOME/.cache", on Windows below "%LOCALAPPDATA%", by
+// a checksum of the absolute path of the root file. Returns: empty where there is no such folder.
+std::string cachedIndexName(const std::string& rootFile) {
+    const std::string folder = cacheFolder();
+    std::error_code failure;
+    const std::string path = fs::canonical(rootFile, failure).string();
+    if (folder.empty() || failure) return {};
+    char name[32];
+    std::snprintf(name, sizeof name, "/%016llx", static_cast<unsigned long long>(indexing::crc64(path)));
+    return binIndexName(folder + name);
+}
+
 // The index that was kept in the cache folder. What is broken there is made anew.
 osg::ref_ptr<BinIndex> readCached(const std::string& root, std::string& error) {
-    const std::string cached = indexing::cachedIndexName(root);
+    const std::string cached = cachedIndexName(root);
     std::error_code ignored;
-    if (cached.empty() || !std::filesystem::exists(cached, ignored)) return nullptr;
+    if (cached.empty() || !fs::exists(cached, ignored)) return nullptr;
     osg::ref_ptr<BinIndex> index = BinIndex::read(cached, error);
     const bool isOther = index && (index->source().name != osgDB::getSimpleFileName(root) || index->stamps().empty());
     return isOther ? nullptr : index;
 }
 
-}  // namespace
+// Keeps an index in the cache folder. A file is replaced when the new one is complete. Of several processes that write
+// the same file, the last one keeps its own. Returns: the path; empty, with the reason in `error`, when the index
+// could not be kept.
+std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error) {
+    const std::string path = cachedIndexName(rootFile);
+    if (path.empty()) {
+        error = "there is no cache folder";
+        return {};
+    }
+    std::error_code failure;
+    fs::create_directories(fs::path(path).parent_path(), failure);
+    // others may be keeping the same index
+    std::random_device random;
+    const std::string own = path + "." + std::to_string(random());
+    if (!index.write(own, error)) return {};
+    fs::rename(own, path, failure);
+    if (!failure) return path;
+    error = "cannot write \"" + path + "\": " + failure.message();
+    fs::remove(own, failure);
+    return {};
+}
 
-// What the thread does between the files.
-class AutoIndex::Observer final : public indexing::WalkObserver {
+void lowerPriority() {
+#if defined(__linux__)
+    constexpr int kNice = 15;
+    (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kNice);
+#endif
+}
+
+struct Stopped {};
+
+// Makes the index of a database in a thread of low priority, which waits while the
+// DatabasePager reads, and keeps it for the next time.
+class AutoIndex final : public TileBoundsSource {
 public:
-    explicit Observer(AutoIndex& index) : _index(index) {}
+    // `kept`: an index with stamps, which is used if no file has changed since; null: none.
+    AutoIndex(const std::string& rootFile, osg::ref_ptr<const BinIndex> kept)
+        : _rootFile(rootFile), _kept(std::move(kept)) {}
 
-    void beforeFile() override { _index.giveWay(); }
-    void done(const indexing::FileRecord& record, bool, double) override { _index.countTiles(record.tiles.size()); }
+    void start() override;
+    // Waits for the thread, which ends after the file that it reads.
+    void stop();
+    [[nodiscard]] bool isWhole() const override { return _isWhole.load(std::memory_order_acquire); }
+    [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const override {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        return _whole;
+    }
+    bool waitUntilWhole(std::chrono::duration<double> most) const override {
+        std::unique_lock<std::mutex> guard(_mutex);
+        _changed.wait_for(guard, most, [this] { return _hasEnded; });
+        return isWhole();
+    }
+    void noteRead(int change) override { _reads.fetch_add(change, std::memory_order_relaxed); }
+    void showNotes() override;
+
+protected:
+    ~AutoIndex() override { stop(); }
 
 private:
-    AutoIndex& _index;
+    // What the thread does between the files.
+    struct Observer final : indexing::WalkObserver {
+        explicit Observer(AutoIndex& of) : index(of) {}
+        void beforeFile() override { index.giveWay(); }
+        void done(const indexing::FileRecord& record, bool, double) override { index.countTiles(record.tiles.size()); }
+        AutoIndex& index;
+    };
+
+    void run();
+    // Does the work, in the thread. What it throws is shown as the reason why there is no index.
+    void make();
+    // Reads all files. Returns: the index, with stamps.
+    [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const DatabaseFiles& files);
+    [[nodiscard]] bool isUpToDate(const BinIndex& index, const DatabaseFiles& files) const {
+        return isCurrent(index, files, [this] { throwIfStopped(); });
+    }
+    void publish(const osg::ref_ptr<const BinIndex>& index);
+    void keep(const BinIndex& index);
+    void note(const std::string& line);
+    void countTiles(std::size_t more);
+    void throwIfStopped() const {
+        if (_isStopped.load(std::memory_order_relaxed)) throw Stopped();
+    }
+    // Waits while the pager reads, but not without limit.
+    void giveWay();
+
+    const std::string _rootFile;
+    osg::ref_ptr<const BinIndex> _kept;
+    std::size_t _tiles = 0;
+    std::thread _thread;
+    std::mutex _threadMutex;  // of _thread
+    std::atomic<bool> _isStopped{false};
+    std::atomic<bool> _isWhole{false};
+    std::atomic<int> _reads{0};
+    mutable std::mutex _mutex;  // guards what follows
+    mutable std::condition_variable _changed;
+    bool _hasEnded = false;
+    std::vector<std::string> _notes;
+    osg::ref_ptr<const BinIndex> _whole;
 };
 
-void AutoIndex::countTiles(std::size_t more) {
-    _tiles += more;
-    if (_tiles <= kMostTiles) return;
-    throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
+// Threads must end before OSG's registry does, also where an application never deletes its scene.
+class RunningThreads {
+public:
+    static RunningThreads& instance() {
+        (void)osgDB::Registry::instance();  // made first, deleted last
+        static RunningThreads threads;
+        return threads;
+    }
+    ~RunningThreads() {
+        std::set<AutoIndex*> running;
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            running = _running;
+        }
+        for (AutoIndex* const index : running) index->stop();
+    }
+    void add(AutoIndex& index) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _running.insert(&index);
+    }
+    void remove(AutoIndex& index) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _running.erase(&index);
+    }
+
+private:
+    std::mutex _mutex;
+    std::set<AutoIndex*> _running;
+};
+
+void AutoIndex::start() {
+    indexing::loadSerializers();
+    RunningThreads::instance().add(*this);
+    const std::lock_guard<std::mutex> guard(_threadMutex);
+    _thread = std::thread([this] { run(); });
+}
+
+void AutoIndex::stop() {
+    _isStopped.store(true);
+    {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _changed.notify_all();
+    }
+    const std::lock_guard<std::mutex> guard(_threadMutex);
+    if (!_thread.joinable()) return;
+    _thread.join();
+    RunningThreads::instance().remove(*this);
+}
+
+void AutoIndex::run() {
+    lowerPriority();
+    try {
+        make();
+    } catch (const Stopped&) {
+        // stop() was called
+    } catch (const std::exception& failure) {
+        note("no index of \"" + _rootFile + "\" can be made: " + failure.what());
+    }
+    const std::lock_guard<std::mutex> guard(_mutex);
+    _hasEnded = true;
+    _changed.notify_all();
+}
+
+void AutoIndex::make() {
+    const DatabaseFiles files(_rootFile);
+    const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
+    if (kept && isUpToDate(*kept, files)) return publish(kept);
+    constexpr int kMostRounds = 3;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const osg::ref_ptr<const BinIndex> index = makeFrom(files);
+        if (!isUpToDate(*index, files)) continue;  // files were changed meanwhile
+        publish(index);
+        return keep(*index);
+    }
+    throw indexing::Failure("its files change all the time");
 }
 
 osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
@@ -79,27 +287,54 @@ osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
     return made.index;
 }
 
-bool AutoIndex::isUpToDate(const BinIndex& index, const DatabaseFiles& files) const {
-    return indexing::areCurrent(index.stamps(), files, [this] { throwIfStopped(); });
-}
-
 void AutoIndex::publish(const osg::ref_ptr<const BinIndex>& index) {
-    BackgroundIndex::publish([&] { _whole = index; });
+    const std::lock_guard<std::mutex> guard(_mutex);
+    _whole = index;
+    _isWhole.store(true, std::memory_order_release);
 }
 
-void AutoIndex::make() {
-    const DatabaseFiles files(rootFile());
-    const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
-    if (kept && isUpToDate(*kept, files)) return publish(kept);
-    constexpr int kMostRounds = 3;
-    for (int round = 0; round < kMostRounds; ++round) {
-        const osg::ref_ptr<const BinIndex> index = makeFrom(files);
-        if (!isUpToDate(*index, files)) continue;  // files were changed meanwhile
-        publish(index);
-        return keep(*index);
-    }
-    throw indexing::Failure("its files change all the time");
+void AutoIndex::keep(const BinIndex& index) {
+    throwIfStopped();
+    std::string error;
+    const std::string path = keepIndex(index, _rootFile, error);
+    note("the index of \"" + _rootFile + "\" is complete: " + std::to_string(index.tileCount()) + " tiles, " +
+         (path.empty() ? "not kept (" + error + ")" : "kept in \"" + path + "\""));
 }
+
+void AutoIndex::note(const std::string& line) {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    _notes.push_back(line);
+}
+
+void AutoIndex::showNotes() {
+    std::vector<std::string> notes;
+    {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        notes.swap(_notes);
+    }
+    for (const std::string& line : notes) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
+}
+
+void AutoIndex::countTiles(std::size_t more) {
+    _tiles += more;
+    if (_tiles <= kMostTiles) return;
+    throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
+}
+
+void AutoIndex::giveWay() {
+    using namespace std::chrono_literals;
+    constexpr auto kStep = 2ms;
+    constexpr auto kLongest = 100ms;
+    std::unique_lock<std::mutex> guard(_mutex);
+    for (auto waited = 0ms; waited < kLongest; waited += kStep) {
+        throwIfStopped();
+        if (_reads.load(std::memory_order_relaxed) <= 0) return;
+        _changed.wait_for(guard, kStep);
+    }
+    throwIfStopped();
+}
+
+}  // namespace
 
 ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions, IndexUse use) {
     if (use == IndexUse::Off || databaseFileName.empty()) return {};
@@ -119,7 +354,7 @@ ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Option
     // times of files in archives and on servers are not known
     if (index && root.empty()) return {};
     const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
-    if (isSoonCompared && indexing::areCurrent(index->stamps(), DatabaseFiles(root), [] {})) return {index, nullptr};
+    if (isSoonCompared && isCurrent(*index, DatabaseFiles(root), [] {})) return {index, nullptr};
     if (isSoonCompared) index = nullptr;
     return {nullptr, isMade ? new AutoIndex(root, index) : nullptr};
 }

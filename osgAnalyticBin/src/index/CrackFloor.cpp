@@ -13,9 +13,7 @@
 
 namespace osgAnalyticBin::indexing {
 
-using osgAnalyticBin::AnalyticBin;
-using osgAnalyticBin::TileSurface;
-using osgAnalyticBin::core::Interval;
+using core::Interval;
 
 namespace {
 

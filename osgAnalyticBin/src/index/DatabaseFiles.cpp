@@ -4,7 +4,6 @@
 #include <osgAnalyticBin/TileFile.h>
 #include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/index/DatabaseFiles.h>
-#include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/Image>
 #include <osg/ref_ptr>
@@ -24,6 +23,12 @@
 #include <ios>
 #include <string>
 #include <vector>
+
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <sys/stat.h>
+#endif
 
 namespace osgAnalyticBin::indexing {
 
@@ -86,9 +91,6 @@ public:
 
     // Why the file must not be used, in one line: the first name that leads elsewhere; empty: nothing is wrong.
     [[nodiscard]] const std::string& refusal() const { return _refusal; }
-
-    // The read callback that has to be set in the options of a read, or in the registry, for this to work.
-    [[nodiscard]] static osg::ref_ptr<osgDB::ReadFileCallback> callback();
 
     using Reader = std::function<Result(const std::string& path)>;
     // What bins depend on: a name that leads elsewhere is refused.
@@ -177,7 +179,8 @@ private:
     std::string _refusal;
 };
 
-// What OSG asks for by name, of the one that reads in this thread.
+// What OSG asks for by name, of the one that reads in this thread: has to be set in the options of a read, or in the
+// registry.
 class ReadsOfThread : public osgDB::ReadFileCallback {
 public:
     using Options = osgDB::Options;
@@ -220,11 +223,33 @@ protected:
     ~ReadsOfThread() override = default;
 };
 
-osg::ref_ptr<osgDB::ReadFileCallback> NestedReads::callback() {
-    return new ReadsOfThread;
+}  // namespace
+
+Failure::~Failure() = default;
+
+#if defined(_WIN32)
+
+FileStamp stampOfPath(const std::string& path) {
+    WIN32_FILE_ATTRIBUTE_DATA status{};
+    if (!::GetFileAttributesExA(path.c_str(), GetFileExInfoStandard, &status)) return {};
+    const auto joined = [](DWORD high, DWORD low) { return (static_cast<std::uint64_t>(high) << 32) | low; };
+    constexpr std::int64_t kTicks = 10000000;        // a second, in units of 100 ns
+    constexpr std::int64_t kEpochs = 11644473600LL;  // seconds from 1601 to 1970
+    const auto time =
+        static_cast<std::int64_t>(joined(status.ftLastWriteTime.dwHighDateTime, status.ftLastWriteTime.dwLowDateTime));
+    return {joined(status.nFileSizeHigh, status.nFileSizeLow), time / kTicks - kEpochs, time % kTicks * 100};
 }
 
-}  // namespace
+#else
+
+FileStamp stampOfPath(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
+            static_cast<std::int64_t>(status.st_mtim.tv_nsec)};
+}
+
+#endif
 
 DatabaseFiles::DatabaseFiles(const std::string& rootFile)
     : _rootFile(rootFile), _rootName(osgDB::getSimpleFileName(rootFile)), _folder(osgDB::getFilePath(rootFile)) {
@@ -253,7 +278,7 @@ osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images imag
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     options->getDatabasePathList().push_front(osgDB::getFilePath(path));
-    options->setReadFileCallback(NestedReads::callback());
+    options->setReadFileCallback(new ReadsOfThread);
     const NestedReads nested(*this, file, images);
     osg::ref_ptr<osg::Node> node;
     try {
@@ -285,7 +310,7 @@ void loadSerializers() {
 }
 
 void checkAllReads() {
-    osgDB::Registry::instance()->setReadFileCallback(NestedReads::callback());
+    osgDB::Registry::instance()->setReadFileCallback(new ReadsOfThread);
 }
 
 }  // namespace osgAnalyticBin::indexing

@@ -5,9 +5,7 @@
 #include "FileSurvey.h"
 
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/Failure.h>
 
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -57,19 +55,19 @@ private:
         if (known != _known.end() && known->second.stamp == stamp && known->second.place == job.place) {
             return {known->second, true};
         }
-        FileRecord record;
-        std::string error;
-        if (const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error)) {
-            record = surveyFile(*scene, job.file, job.place, _files);
-        } else if (job.file.empty()) {
-            throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
-        }
+        FileRecord record = recordOf(job);
         record.file = job.file;
         record.stamp = stamp;
         record.place = job.place;
-        const std::lock_guard<std::mutex> guard(_keepMutex);
-        _observer.keep(record);
         return {std::move(record), false};
+    }
+
+    FileRecord recordOf(const Job& job) const {
+        std::string error;
+        const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error);
+        if (scene) return surveyFile(*scene, job.file, job.place, _files);
+        if (!job.file.empty()) return {};
+        throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
     }
 
     void finish(Done done, double share) {
@@ -100,7 +98,6 @@ private:
     const Images _images;
     WalkObserver& _observer;
     std::map<std::string, FileRecord> _known;
-    std::mutex _keepMutex;
 
     WorkQueue<Job> _queue;
     std::map<std::string, FilePlace> _places;
@@ -110,8 +107,6 @@ private:
 }  // namespace
 
 WalkObserver::~WalkObserver() = default;
-
-void WalkObserver::keep(const FileRecord&) {}
 
 void WalkObserver::done(const FileRecord&, bool, double) {}
 

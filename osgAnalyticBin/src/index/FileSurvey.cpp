@@ -6,7 +6,6 @@
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
-#include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/PagedLOD>
 #include <osg/ProxyNode>
@@ -19,10 +18,6 @@
 #include <set>
 
 namespace osgAnalyticBin::indexing {
-
-using osgAnalyticBin::FoundTile;
-using osgAnalyticBin::TileFrame;
-using osgAnalyticBin::TileSurface;
 
 namespace {
 
@@ -44,8 +39,7 @@ TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
     if (!tile.frame.ellipsoid) return whole;
     bool isFirst = true;
     for (const auto& mesh : tile.meshes) {
-        const TileSurface part =
-            osgAnalyticBin::tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
+        const TileSurface part = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
         if (!part.bin.valid()) return {};
         whole.isInMap = part.isInMap;
         if (isFirst) whole.edgeLow = part.edgeLow;
@@ -89,7 +83,7 @@ private:
     const Nodes& _links;
 };
 
-class Survey : public osgAnalyticBin::TileFinder {
+class Survey : public TileFinder {
 public:
     Survey(const DatabaseFiles& files, const std::string& file, const FilePlace& place)
         : TileFinder(frameOf(place, file)), _files(files), _sampleRatio(place.sampleRatio) {
@@ -106,7 +100,7 @@ protected:
         if (tile.frame.file != record.file) return;
         tiles.insert(tile.node.get());
         const auto ordinal = static_cast<std::int32_t>(record.tiles.size());
-        record.tiles.push_back({surfaceOf(tile, _sampleRatio), osgAnalyticBin::tileFingerprint(tile), _tile});
+        record.tiles.push_back({surfaceOf(tile, _sampleRatio), tileFingerprint(tile), _tile});
         if (const auto* paged = dynamic_cast<const osg::PagedLOD*>(tile.node.get())) link(*paged, ordinal);
         const std::int32_t outer = _tile;
         _tile = ordinal;
@@ -132,7 +126,7 @@ private:
             const std::string& name = paged.getFileName(i);
             if (name.empty()) continue;
             requireOwnFolder(paged, name);
-            const std::string file = osgAnalyticBin::pagedFilePath(record.file, name);
+            const std::string file = pagedFilePath(record.file, name);
             record.links.push_back({_files.checked(file, record.file), tile,
                                     placeOf(frame(), frame().isBelowTile || tile >= 0, _sampleRatio)});
         }

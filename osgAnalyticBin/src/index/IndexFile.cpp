@@ -162,14 +162,32 @@ std::size_t sharedBytes(const std::string& a, const std::string& b) {
     return static_cast<std::size_t>(ends.first - a.begin());
 }
 
+// Of a sorted list of names: a name, after the bytes that it shares with the one before. `tiles`: a number between.
+void writeName(Writer& out, const std::string& before, const std::string& name, const std::uint32_t* tiles = nullptr) {
+    const std::size_t shared = sharedBytes(before, name);
+    out.number(static_cast<std::uint32_t>(shared));
+    out.number(static_cast<std::uint32_t>(name.size() - shared));
+    if (tiles) out.number(*tiles);
+    out.bytes(std::string_view(name).substr(shared));
+}
+
+// `before`: null for the first name.
+std::string readName(Reader& in, const std::string* before, std::uint32_t* tiles = nullptr) {
+    const auto shared = in.number<std::uint32_t>();
+    const auto further = in.number<std::uint32_t>();
+    if (tiles) *tiles = in.number<std::uint32_t>();
+    if (shared > (before ? before->size() : 0) || further > kLongestName) throw Refusal{kDamaged};
+    std::string name = before ? before->substr(0, shared) : std::string();
+    name += in.bytes(further);
+    if (name.size() > kLongestName || (before && name <= *before)) throw Refusal{kDamaged};
+    return name;
+}
+
 void writeStamps(Writer& out, const BinIndex::Stamps& stamps) {
     out.number(static_cast<std::uint64_t>(stamps.size()));
     std::string before;
     for (const auto& [name, stamp] : stamps) {
-        const std::size_t shared = sharedBytes(before, name);
-        out.number(static_cast<std::uint32_t>(shared));
-        out.number(static_cast<std::uint32_t>(name.size() - shared));
-        out.bytes(std::string_view(name).substr(shared));
+        writeName(out, before, name);
         out.number(stamp.size);
         out.number(stamp.time);
         out.number(stamp.nanoseconds);
@@ -178,37 +196,11 @@ void writeStamps(Writer& out, const BinIndex::Stamps& stamps) {
     out.number(out.checksum());
 }
 
-struct FileHead {
-    std::string name;
-    std::uint32_t tiles = 0;
-};
-
-// Returns: the name that follows the bytes that it shares with the one before.
-std::string readName(Reader& in, std::uint32_t shared, std::uint32_t further, const std::string* before) {
-    if (shared > (before ? before->size() : 0) || further > kLongestName) throw Refusal{kDamaged};
-    std::string name = before ? before->substr(0, shared) : std::string();
-    name += in.bytes(further);
-    if (name.size() > kLongestName || (before && name <= *before)) throw Refusal{kDamaged};
-    return name;
-}
-
-FileHead readFileHead(Reader& in, const FileHead* before) {
-    const auto shared = in.number<std::uint32_t>();
-    const auto further = in.number<std::uint32_t>();
-    FileHead head;
-    head.tiles = in.number<std::uint32_t>();
-    head.name = readName(in, shared, further, before ? &before->name : nullptr);
-    return head;
-}
-
 BinIndex::Stamps readStamps(Reader& in) {
     BinIndex::Stamps stamps;
     const auto files = in.number<std::uint64_t>();
     for (std::uint64_t i = 0; i < files; ++i) {
-        const auto shared = in.number<std::uint32_t>();
-        const auto further = in.number<std::uint32_t>();
-        const std::string* const before = stamps.empty() ? nullptr : &stamps.rbegin()->first;
-        const std::string name = readName(in, shared, further, before);
+        const std::string name = readName(in, stamps.empty() ? nullptr : &stamps.rbegin()->first);
         BinIndex::Stamp stamp;
         stamp.size = in.number<std::uint64_t>();
         stamp.time = in.number<std::int64_t>();
@@ -223,12 +215,17 @@ void requireChecksum(Reader& in) {
     if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};
 }
 
-std::vector<FileHead> readFileHeads(Reader& in, std::uint64_t files, std::uint64_t tiles) {
-    std::vector<FileHead> heads;
+// The files with the numbers of their tiles.
+using FileHeads = std::vector<std::pair<std::string, std::uint32_t>>;
+
+FileHeads readFileHeads(Reader& in, std::uint64_t files, std::uint64_t tiles) {
+    FileHeads heads;
     std::uint64_t sum = 0;
     for (std::uint64_t i = 0; i < files; ++i) {
-        heads.push_back(readFileHead(in, heads.empty() ? nullptr : &heads.back()));
-        sum += heads.back().tiles;
+        std::uint32_t count = 0;
+        std::string name = readName(in, heads.empty() ? nullptr : &heads.back().first, &count);
+        heads.emplace_back(std::move(name), count);
+        sum += count;
     }
     if (sum != tiles) throw Refusal{kDamaged};
     return heads;
@@ -255,10 +252,10 @@ osg::ref_ptr<BinIndex> readIndex(std::istream& stream) {
 
     osg::ref_ptr<BinIndex> index = new BinIndex;
     index->setSource(source);
-    for (const FileHead& head : readFileHeads(in, files, tiles)) {
+    for (const auto& [name, count] : readFileHeads(in, files, tiles)) {
         std::vector<BinIndex::Entry> entries;
-        for (std::uint32_t i = 0; i < head.tiles; ++i) entries.push_back(readTile(in));
-        index->setTiles(head.name, std::move(entries));
+        for (std::uint32_t i = 0; i < count; ++i) entries.push_back(readTile(in));
+        index->setTiles(name, std::move(entries));
     }
     requireChecksum(in);
     if (stream.peek() == std::istream::traits_type::eof()) return index;
@@ -307,11 +304,8 @@ bool BinIndex::write(std::ostream& stream) const {
     out.bytes(_source.name);
     std::string before;
     for (const auto& [name, tiles] : _files) {
-        const std::size_t shared = sharedBytes(before, name);
-        out.number(static_cast<std::uint32_t>(shared));
-        out.number(static_cast<std::uint32_t>(name.size() - shared));
-        out.number(static_cast<std::uint32_t>(tiles.size()));
-        out.bytes(std::string_view(name).substr(shared));
+        const auto count = static_cast<std::uint32_t>(tiles.size());
+        writeName(out, before, name, &count);
         before = name;
     }
     for (const auto& file : _files) {

@@ -4,14 +4,11 @@
 #include "CrackFloor.h"
 #include "TileTree.h"
 
-#include <osgAnalyticBin/index/Failure.h>
-#include <osgAnalyticBin/index/MadeIndex.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
 
 #include <algorithm>
 
 namespace osgAnalyticBin::indexing {
-
-Failure::~Failure() = default;
 
 namespace {
 

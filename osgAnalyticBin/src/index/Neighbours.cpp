@@ -12,7 +12,7 @@
 
 namespace osgAnalyticBin::indexing {
 
-using osgAnalyticBin::core::Interval;
+using core::Interval;
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr double kTwoPi = 6.28318530717958647693;
 constexpr double kTolerance = 1e-6;
 // Margins are lengths on the ground; the smallest globe that they are turned into angles on.
 constexpr double kSmallestRadius = 1.0e6;
-constexpr double kMapUnitsInRadian = osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian;
+constexpr double kMapUnitsInRadian = core::Ellipsoid::kMapUnitsInRadian;
 constexpr double kSmallestCosine = 1e-3;
 
 // Longitude and latitude on x and y, tolerances included.
@@ -120,7 +120,7 @@ TileRect TileRect::turned(double turn) const {
     return result;
 }
 
-TileRect rectOf(const osgAnalyticBin::TileSurface& surface) {
+TileRect rectOf(const TileSurface& surface) {
     TileRect rect;
     rect.latitude = surface.bin.bin().latitude();
     rect.longitude = surface.bin.bin().longitude();
@@ -141,7 +141,7 @@ bool touch(const TileRect& a, const TileRect& b) {
 Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles) {
     std::map<std::uint32_t, std::vector<Item>> levels;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const osgAnalyticBin::TileSurface& surface = tiles[i].record->surface;
+        const TileSurface& surface = tiles[i].record->surface;
         if (!surface.bin.valid()) continue;
         levels[tiles[i].depth].push_back({boxOf(shifted(rectOf(surface))), static_cast<std::uint32_t>(i)});
     }

@@ -4,20 +4,18 @@
 #include "TileTree.h"
 
 #include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/index/Failure.h>
 
 #include <algorithm>
 #include <set>
 
 namespace osgAnalyticBin::indexing {
 
-using osgAnalyticBin::AnalyticBin;
-using osgAnalyticBin::core::Interval;
+using core::Interval;
 
 namespace {
 
 // For files that cannot be read now.
-constexpr Interval kTerrainAltitudes = osgAnalyticBin::CullOptions::kTerrainOnEarth;
+constexpr Interval kTerrainAltitudes = CullOptions::kTerrainOnEarth;
 // The unit of a map may be the foot.
 constexpr double kFeetInMetre = 1.0 / 0.3048;
 constexpr Interval kTerrainInMap{kTerrainAltitudes.lower * kFeetInMetre, kTerrainAltitudes.upper* kFeetInMetre};

@@ -11,14 +11,12 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
-#include <glm/common.hpp>
 #include <osg/Node>
 #include <osg/Notify>
 #include <osg/ValueObject>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin {
 
@@ -27,45 +25,7 @@ namespace {
 constexpr const char* kUserValueName = "osgAnalyticBin";
 constexpr const char* kSurfaceLowName = "osgAnalyticBin.surfaceLow";
 constexpr double kDegreesPerRadian = 57.29577951308232087680;
-// Number of splits of the quadratic model; its parts then hardly extend beyond their corners.
-constexpr int kSphereSplits = 3;
-constexpr double kSphereLooseness = 0.01;
-
-// The middle of the axis-aligned box about a grid of points.
-glm::dvec3 middleOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box) {
-    glm::dvec3 lowest(std::numeric_limits<double>::infinity());
-    glm::dvec3 highest(-lowest);
-    for (int i = 0; i < 27; ++i) {
-        const glm::dvec3 unit(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-        const glm::dvec3 point = mapping.value(box.center + unit * box.halfSize);
-        lowest = glm::min(lowest, point);
-        highest = glm::max(highest, point);
-    }
-    return 0.5 * (lowest + highest);
-}
-
-// An upper bound of the distance of the mapped box from a point, tight to a percent where splits are left.
-double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box, const glm::dvec3& from,
-               int splits) {
-    const core::QuadraticBin model(mapping, box);
-    double reach = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
-        reach = std::max(reach, glm::distance(from, model.modelPoint(corner)));
-    }
-    const double loose = model.bulge() + model.remainder();
-    if (splits == 0 || loose <= kSphereLooseness * reach) return reach + loose;
-    reach = 0.0;
-    const glm::dvec3 half(0.5 * box.halfSize.x, 0.5 * box.halfSize.y, box.halfSize.z);
-    for (int i = 0; i < 4; ++i) {
-        const glm::dvec3 center = box.center + glm::dvec3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, 0.0);
-        // outward by more than the rounding of the halves
-        reach = std::max(reach, reachOf(mapping, {center, half * (1.0 + 1e-12)}, from, splits - 1));
-    }
-    return reach;
-}
-
-// Radians: wider bins fill only a small part of the box about them.
+// Radians: wider bins may fill only a small part of the box about them.
 constexpr double kWidestBox = 1.0;
 
 // The sphere about the bin's box along east, north and up of its middle, which hardly extends beyond the bin's corners.
@@ -79,6 +39,13 @@ osg::BoundingSphere sphereOfBox(const core::ExactGeodeticBin& bin, const core::G
         squaredRadius += 0.25 * range.width() * range.width();
     }
     return roundedOutward(toOsg(center), std::sqrt(squaredRadius));
+}
+
+// The sphere that the test of a bin in either form begins with.
+template <class Numbers>
+osg::BoundingSphere firstSphere(const Numbers& numbers) {
+    using namespace core::row;
+    return roundedOutward({numbers[CenterX], numbers[CenterY], numbers[CenterZ]}, numbers[Reach]);
 }
 
 double radians(double degrees) {
@@ -139,15 +106,14 @@ osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
 
 osg::BoundingSphere AnalyticBin::boundingSphere(const osg::EllipsoidModel& ellipsoid) const {
     if (!valid()) return {};
+    const core::Ellipsoid globe = toCore(ellipsoid);
+    if (!core::ExactGeodeticBin::holds(globe, _bin))
+        return firstSphere(
+            core::QuadraticBin(core::GeodeticMapping(globe), core::parameterBox(_bin), _margin).numbers());
+    const core::ExactGeodeticBin bin(globe, _bin, _margin);
+    const osg::BoundingSphere ofBox = sphereOfBox(bin, _bin.center()), first = firstSphere(bin.numbers());
     const bool isNarrow = _bin.longitude().width() < kWidestBox && _bin.latitude().width() < kWidestBox;
-    if (isNarrow && core::ExactGeodeticBin::holds(toCore(ellipsoid), _bin)) {
-        return sphereOfBox(core::ExactGeodeticBin(toCore(ellipsoid), _bin, _margin), _bin.center());
-    }
-    const core::GeodeticMapping mapping(toCore(ellipsoid));
-    const core::ParameterBox box = core::parameterBox(_bin);
-    const glm::dvec3 center = middleOf(mapping, box);
-    const double reach = reachOf(mapping, box, center, kSphereSplits) + _margin;
-    return roundedOutward(toOsg(center), reach);
+    return isNarrow || ofBox.radius() < first.radius() ? ofBox : first;
 }
 
 std::string AnalyticBin::toText() const {

@@ -46,10 +46,6 @@ constexpr ProductTable makeProductTable() {
 
 constexpr ProductTable kProducts = makeProductTable();
 
-double infinityUnlessNumber(double bound) {
-    return std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
-}
-
 // The largest distance of a point of the interval from a number.
 double deviation(const IntervalNumber& enclosure, double computed) {
     return std::max(std::abs(enclosure.lower() - computed), std::abs(enclosure.upper() - computed));
@@ -184,17 +180,6 @@ double thirdDifferentialBound(const Vec3<TaylorInterval>& f) noexcept {
     return 6.0 * std::min(coordinatewise, monomials) * kRoundUp;
 }
 
-double triangleSagBound(const Vec3<TaylorInterval>& f) noexcept {
-    double sum = 0.0;
-    for (std::size_t i = TaylorInterval::kFirstOfDegree2; i < TaylorInterval::kFirstOfDegree3; ++i) {
-        const double x = f.x.coefficient(i).magnitude();
-        const double y = f.y.coefficient(i).magnitude();
-        const double z = f.z.coefficient(i).magnitude();
-        sum += std::sqrt(x * x + y * y + z * z);
-    }
-    return infinityUnlessNumber(0.25 * sum * kRoundUp);
-}
-
 double modelRounding(const Vec3<TaylorInterval>& atCenter, const glm::dvec3& value, const glm::dmat3& jacobian,
                      const Hessians& hessians, const glm::dvec3& halfSize) noexcept {
     const glm::dvec3& e = halfSize;
@@ -210,7 +195,7 @@ double modelRounding(const Vec3<TaylorInterval>& atCenter, const glm::dvec3& val
                                                                            hessians.vw * (e.y * e.z)};
     double sum = 0.0;
     for (std::size_t i = 0; i < computed.size(); ++i) sum += deviation(atCenter, i, computed[i]);
-    return infinityUnlessNumber(sum * kRoundUp);
+    return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum * kRoundUp;
 }
 
 }  // namespace osgAnalyticBin::core

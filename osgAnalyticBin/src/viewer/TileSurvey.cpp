@@ -19,6 +19,7 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 namespace osgAnalyticBin {
@@ -170,42 +171,29 @@ private:
     std::vector<OpenTile> _open;
 };
 
+struct Shown {
+    const char* name;
+    osg::Vec4 colour;
+};
+
+const Shown& shownAs(TileVerdict verdict) {
+    static const std::array<Shown, 6> kShown{{{"outside", {0.95F, 0.08F, 0.3F, 1.0F}},
+                                              {"straddling", {1.0F, 1.0F, 0.05F, 1.0F}},
+                                              {"inside", {0.05F, 0.95F, 0.0F, 1.0F}},
+                                              {"behind the horizon", {0.4F, 0.38F, 1.0F, 1.0F}},
+                                              {"beyond an edge", {0.0F, 1.0F, 0.9F, 1.0F}},
+                                              {"behind terrain", {0.95F, 0.5F, 0.0F, 1.0F}}}};
+    return kShown[static_cast<std::size_t>(verdict)];
+}
+
 }  // namespace
 
 const char* verdictName(TileVerdict verdict) {
-    switch (verdict) {
-        case TileVerdict::Outside:
-            return "outside";
-        case TileVerdict::Straddling:
-            return "straddling";
-        case TileVerdict::Inside:
-            return "inside";
-        case TileVerdict::Hidden:
-            return "behind the horizon";
-        case TileVerdict::BeyondEdge:
-            return "beyond an edge";
-        case TileVerdict::Occluded:
-            return "behind terrain";
-    }
-    return "";
+    return shownAs(verdict).name;
 }
 
 osg::Vec4 verdictColour(TileVerdict verdict) {
-    switch (verdict) {
-        case TileVerdict::Outside:
-            return {0.95F, 0.08F, 0.3F, 1.0F};
-        case TileVerdict::Straddling:
-            return {1.0F, 1.0F, 0.05F, 1.0F};
-        case TileVerdict::Inside:
-            return {0.05F, 0.95F, 0.0F, 1.0F};
-        case TileVerdict::Hidden:
-            return {0.4F, 0.38F, 1.0F, 1.0F};
-        case TileVerdict::BeyondEdge:
-            return {0.0F, 1.0F, 0.9F, 1.0F};
-        case TileVerdict::Occluded:
-            return {0.95F, 0.5F, 0.0F, 1.0F};
-    }
-    return {1.0F, 1.0F, 1.0F, 1.0F};
+    return shownAs(verdict).colour;
 }
 
 TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {

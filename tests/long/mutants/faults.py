@@ -146,8 +146,8 @@ FAULTS = [
           "GeodeticMeshBounds*:*Planet*"),
     Fault("chords do not run poleward, quick form", "src/core/mesh/MeshBounds.cpp", "runs[side] = end.guess * end.pole > 0.0;",
           "runs[side] = false;", CORE, "MeshBounds*:*Planet*"),
-    Fault("chords of grids sag half as far", "src/core/mesh/GeodeticGridBounds.cpp", "return terms.radius * versine + rounding;",
-          "return 0.5 * terms.radius * versine + rounding;", CORE, "GeodeticGridBounds*:*Planet*"),
+    Fault("chords of grids sag half as far", "src/core/mesh/GeodeticGridBounds.cpp", "return radius * versine + rounding;",
+          "return 0.5 * radius * versine + rounding;", CORE, "GeodeticGridBounds*:*Planet*"),
     Fault("cracks along southern edges", "src/core/mesh/CrackBounds.cpp", "std::max({southArc, northArc,", "std::max({0.0 * southArc, northArc,",
           CORE, "*Crack*"),
 

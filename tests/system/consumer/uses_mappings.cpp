@@ -4,17 +4,25 @@
 // A bin from a formula, on a node.
 
 #include <osgAnalyticBin/mappings/AutodiffMapping.h>
-#include <osgAnalyticBin/mappings/CylinderSegment.h>
 #include <osgAnalyticBin/mappings/QuadraticBinCullCallback.h>
 
 #include <osg/Group>
 
+#include <cmath>
 #include <cstdlib>
+
+struct Pipe {
+    template <class T>
+    osgAnalyticBin::core::Vec3<T> operator()(T angle, T radius, T height) const {
+        using std::cos;
+        using std::sin;
+        return {radius * cos(angle), radius * sin(angle), height};
+    }
+};
 
 int main() {
     using namespace osgAnalyticBin;
-    const core::AutodiffMapping pipe{core::CylinderSegment(core::Frame())};
-    const core::QuadraticBin bin(pipe, {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
+    const core::QuadraticBin bin(core::AutodiffMapping(Pipe()), {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
     osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setCullCallback(new QuadraticBinCullCallback(bin));
     const bool right = bin.classify({{1.0, 0.0, 0.0}, 0.0}) == core::Side::Inside;

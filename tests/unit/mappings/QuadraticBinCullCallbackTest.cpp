@@ -7,13 +7,14 @@
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/mappings/AutodiffMapping.h>
-#include <osgAnalyticBin/mappings/CylinderSegment.h>
 #include <osgAnalyticBin/mappings/QuadraticBinCullCallback.h>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
 #include <algorithm>
+#include <cmath>
 #include <kit/CullFixture.h>
 #include <support/Random.h>
 
@@ -26,12 +27,30 @@ osg::Vec3d vec(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+// The wall of a pipe: angle, radius, and height along the axis.
+struct Pipe {
+    glm::dvec3 origin{0.0}, x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
+
+    static Pipe along(const glm::dvec3& axis, const glm::dvec3& aside, const glm::dvec3& origin) {
+        const glm::dvec3 y = glm::normalize(glm::cross(axis, aside));
+        return {origin, glm::cross(y, axis), y, axis};
+    }
+    template <class T>
+    core::Vec3<T> operator()(T angle, T radius, T height) const {
+        using std::cos;
+        using std::sin;
+        const T a = radius * cos(angle), b = radius * sin(angle);
+        return {a * x.x + b * y.x + height * z.x + origin.x, a * x.y + b * y.y + height * z.y + origin.y,
+                a * x.z + b * y.z + height * z.z + origin.z};
+    }
+};
+
 // Quarters of pipes at random places within 100 m, and samples of each.
 struct Pipes {
     explicit Pipes(test::Random& random) {
         for (int i = 0; i < 200; ++i) {
-            const core::AutodiffMapping mapping(core::CylinderSegment(core::frameAboutAxis(
-                random.direction() * random.uniform(0.0, 100.0), random.direction(), random.direction())));
+            const core::AutodiffMapping mapping(
+                Pipe::along(random.direction(), random.direction(), random.direction() * random.uniform(0.0, 100.0)));
             const core::ParameterBox box{{random.uniform(0.0, 6.0), 0.5, 0.0}, {0.785, 0.02, 4.0}};
             add(std::to_string(i), core::QuadraticBin(mapping, box));
             points.emplace_back();
@@ -123,7 +142,7 @@ TEST(QuadraticBinCullCallback, WithoutABinNothingIsCulled) {
 }
 
 TEST(QuadraticBinCullCallback, KeepsSmallFeatureCulling) {
-    const core::AutodiffMapping mapping{core::CylinderSegment(core::Frame())};
+    const core::AutodiffMapping mapping{Pipe()};
     const core::QuadraticBin bin(mapping, {{0.0, 0.001, 0.0}, {0.1, 0.0001, 0.001}});
     CullView view = CullView::lookAt({1000, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     for (const bool hasSphere : {true, false}) {
@@ -144,7 +163,7 @@ TEST(QuadraticBinCullCallback, KeepsSmallFeatureCulling) {
 }
 
 TEST(QuadraticBinCullCallback, ACopyCullsTheSame) {
-    const core::AutodiffMapping mapping{core::CylinderSegment(core::Frame())};
+    const core::AutodiffMapping mapping{Pipe()};
     const core::QuadraticBin bin(mapping, {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
     const osg::ref_ptr<QuadraticBinCullCallback> original = new QuadraticBinCullCallback(bin);
     const osg::ref_ptr<QuadraticBinCullCallback> copy = new QuadraticBinCullCallback(*original);

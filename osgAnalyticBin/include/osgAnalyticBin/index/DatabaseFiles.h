@@ -9,9 +9,17 @@
 #include <osg/Node>
 #include <osg/ref_ptr>
 
+#include <stdexcept>
 #include <string>
 
 namespace osgAnalyticBin::indexing {
+
+/// Why no index of a database can be made; its text is one line: what, where, what to do.
+class OSGANALYTICBIN_EXPORT Failure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+    ~Failure() override;
+};
 
 /// How images, shaders and fonts in separate files are treated.
 enum class Images {

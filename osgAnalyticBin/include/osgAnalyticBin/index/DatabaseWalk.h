@@ -23,8 +23,6 @@ public:
     virtual ~WalkObserver();
     /// Before a file is read, in the thread that will read it. May be called by several threads at once.
     virtual void beforeFile() {}
-    /// A file was read. Never two calls at a time.
-    virtual void keep(const FileRecord& record);
     /// A file is done. Never two calls at a time. `isKnown`: its record is from an earlier walk. `share`: the part
     /// of the whole walk that is done with this file; the sum of all shares is 1.
     virtual void done(const FileRecord& record, bool isKnown, double share);
@@ -38,5 +36,19 @@ public:
 [[nodiscard]] OSGANALYTICBIN_EXPORT FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
                                                              WalkObserver& observer, int threads,
                                                              Images images = Images::Left);
+
+/// An index with the records that it was made from.
+struct MadeIndex {
+    /// The bins of all tiles.
+    osg::ref_ptr<BinIndex> index;
+    /// Of all files of the database.
+    FileRecords records;
+    /// Missing files and tiles without a bin, a line each.
+    std::vector<std::string> warnings;
+};
+
+/// The index of the bins in the records of all files. Throws Failure when there is no tile, or when a file is paged
+/// below itself.
+[[nodiscard]] OSGANALYTICBIN_EXPORT MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records);
 
 }  // namespace osgAnalyticBin::indexing

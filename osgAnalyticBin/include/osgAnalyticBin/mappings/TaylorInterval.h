@@ -25,8 +25,6 @@ public:
     /// Monomials of degree 0; 1: u, v, w; 2: uu, vv, ww, uv, uw, vw; 3: uuu, vvv, www, uuv, uuw, uvv, vvw, uww, vww,
     /// uvw.
     static constexpr std::size_t kCoefficients = 20;
-    /// Where the monomials of degree 2 begin.
-    static constexpr std::size_t kFirstOfDegree2 = 4;
     /// Where the monomials of degree 3 begin.
     static constexpr std::size_t kFirstOfDegree3 = 10;
 
@@ -81,11 +79,6 @@ private:
 /// An upper bound of |D3f[s, s, s]| for |s_i| <= 1, from the enclosure of f's coefficients.
 /// Returns: infinity when a coefficient is undefined.
 [[nodiscard]] double thirdDifferentialBound(const Vec3<TaylorInterval>& f) noexcept;
-
-/// An upper bound of the distance between any point of a flat triangle whose corners are f at three positions, at most
-/// one step apart in each variable, and f at the same mixture of the positions. Source: doc/theory/mappings.md,
-/// section 9. Returns: infinity when a coefficient is undefined.
-[[nodiscard]] double triangleSagBound(const Vec3<TaylorInterval>& f) noexcept;
 
 /// How far a model with these derivatives, computed at the centre of a box, can be from the exact Taylor polynomial of
 /// second order that `atCenter` encloses, anywhere in the box.

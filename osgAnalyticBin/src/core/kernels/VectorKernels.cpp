@@ -79,6 +79,11 @@ bool covers(const double* lower, const double* upper, std::size_t first, std::si
     return coversHeights<Wide>(lower, upper, first, last, low, high);
 }
 
+void choose() {
+    activeKernels = {bin, family, hidden};
+    activeOcclusion = {columns, walls, outline, isAbove, raise, covers};
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace osgAnalyticBin::core::kernels
 HWY_AFTER_NAMESPACE();
@@ -86,21 +91,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace osgAnalyticBin::core::kernels {
 
-HWY_EXPORT(bin);
-HWY_EXPORT(family);
-HWY_EXPORT(hidden);
-HWY_EXPORT(columns);
-HWY_EXPORT(walls);
-HWY_EXPORT(outline);
-HWY_EXPORT(isAbove);
-HWY_EXPORT(raise);
-HWY_EXPORT(covers);
+HWY_EXPORT(choose);
 
 void chooseKernels() noexcept {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    activeKernels = {&HWY_DYNAMIC_DISPATCH(bin), &HWY_DYNAMIC_DISPATCH(family), &HWY_DYNAMIC_DISPATCH(hidden)};
-    activeOcclusion = {&HWY_DYNAMIC_DISPATCH(columns), &HWY_DYNAMIC_DISPATCH(walls), &HWY_DYNAMIC_DISPATCH(outline),
-                       &HWY_DYNAMIC_DISPATCH(isAbove), &HWY_DYNAMIC_DISPATCH(raise), &HWY_DYNAMIC_DISPATCH(covers)};
+    HWY_DYNAMIC_DISPATCH(choose)();
 }
 
 }  // namespace osgAnalyticBin::core::kernels

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -18,9 +19,7 @@ constexpr double kHalfPi = 1.57079632679489661923;
 // Sines are taken for angles in the bound of the poleward run, and the last bits of its own evaluation are covered.
 constexpr double kRunSlack = 1.01;
 constexpr double kAngleRounding = 1e-15;
-constexpr double kAboveTheCentres = 1.0 - 1e-9;
-constexpr double kLengthRounding = 1e-7;     // metres on the earth
-constexpr double kLatitudeRounding = 1e-14;  // of Ellipsoid::toGeodetic
+constexpr double kLengthRounding = 1e-7;  // metres on the earth
 
 double squared(double value) {
     return value * value;
@@ -42,21 +41,10 @@ double haversine(double angle) {
     return squared(std::sin(0.5 * angle));
 }
 
-// Where the closed forms are tight; elsewhere forms are used that hold for all ellipsoids.
+// Where the closed forms hold.
 bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
     const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
     return reach < 0.1 * smaller && std::abs(ellipsoid.eccentricitySquared()) < 0.1;
-}
-
-// The lowest posts run farthest.
-double latitudeOfLowestRun(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
-    const double depth = std::min(reach, deepestPost(ellipsoid));
-    const double sine = std::sin(latitude);
-    const double cosine = std::cos(latitude);
-    const double n = ellipsoid.primeVerticalRadius(sine, cosine);
-    const double z = (n * ellipsoid.squaredRatio() - depth) * sine;
-    const double rho = (n - depth) * cosine * cosHalfColumn;
-    return ellipsoid.toGeodetic({rho, 0.0, z}).latitude + kLatitudeRounding;
 }
 
 // The latitude up to which chords between posts of the parallel `latitude` >= 0 run, `halfColumn` radians either way.
@@ -65,30 +53,9 @@ double polewardLimit(const Ellipsoid& ellipsoid, double latitude, double cosHalf
     const double e2 = ellipsoid.eccentricitySquared();
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
-    if (e2 > 0.0 && !isEarthLike(ellipsoid, reach)) {
-        const double lowest = latitudeOfLowestRun(ellipsoid, latitude, cosHalfColumn, reach);
-        return std::min(kHalfPi, std::max(lowest, fromAxis + kAngleRounding));
-    }
     const double lag = e2 > 0.0 ? kRunSlack * e2 * (a / b) * (a / b) * a * a / (b * (a - reach) * cosHalfColumn) : 0.0;
     const double run = std::max(0.0, fromAxis - latitude) / (1.0 - lag);
     return std::min(kHalfPi, latitude + run + kAngleRounding);
-}
-
-// The terms of the bounds of sags.
-struct SagTerms {
-    double radius;
-    double stretch;            // of half a row, its root
-    double equatorial, polar;  // radii of the reduced latitude whose cosine counts beside the geodetic one's
-};
-
-SagTerms sagTerms(const Ellipsoid& ellipsoid, double reach) {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    // Geodetic and reduced latitudes change by a/b and b/a of each other at most: twice, for a middle in reduced
-    // latitude as seen in geodetic ones.
-    const double oblateness = std::max(a / b, b / a);
-    if (isEarthLike(ellipsoid, reach)) return {std::max(a, b) + reach, oblateness, a, b};
-    return {largestCurvatureRadius(ellipsoid) + reach, 1.0, 1.0, 1.0};
 }
 
 }  // namespace
@@ -99,6 +66,12 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     const double column = grid.longitude.width() / static_cast<double>(grid.columns - 1);
     assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell && reach >= 0.0);
     if (ellipsoid.isPlane()) return;
+    _isKnown = isEarthLike(ellipsoid, reach);
+    if (!_isKnown) {
+        _sag = std::numeric_limits<double>::infinity();
+        _edgeSag.fill(_sag);
+        return;
+    }
 
     const double cosHalfColumn = std::cos(0.5 * column);
     if (grid.latitude.upper > 0.0)
@@ -106,21 +79,23 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     if (grid.latitude.lower < 0.0)
         _latitude.lower = -polewardLimit(ellipsoid, -grid.latitude.lower, cosHalfColumn, reach);
 
-    const SagTerms terms = sagTerms(ellipsoid, reach);
-    const HalfCell half{haversine(0.5 * row * terms.stretch * terms.stretch), haversine(0.5 * column)};
-    const auto cosAt = [&terms](double latitude) {
-        const double sine = terms.polar * std::sin(latitude);
-        const double reduced = std::cos(std::atan2(sine, terms.equatorial * std::cos(latitude)));
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    // Geodetic and reduced latitudes change by a/b and b/a of each other at most: twice, for a middle in reduced
+    // latitude as seen in geodetic ones.
+    const double oblateness = std::max(a / b, b / a);
+    const HalfCell half{haversine(0.5 * row * oblateness * oblateness), haversine(0.5 * column)};
+    const auto cosAt = [a, b](double latitude) {
+        const double reduced = std::cos(std::atan2(b * std::sin(latitude), a * std::cos(latitude)));
         return std::max(reduced, std::cos(latitude));
     };
     const double rounding = kLengthRounding * earthScale(ellipsoid);
-    const auto sagOf = [&](double versine) { return terms.radius * versine + rounding; };
+    const double radius = std::max(a, b) + reach;
+    const auto sagOf = [=](double versine) { return radius * versine + rounding; };
     const double cosSouth = cosAt(grid.latitude.lower);
     const double cosNorth = cosAt(grid.latitude.upper);
     const bool acrossEquator = grid.latitude.lower <= 0.0 && grid.latitude.upper >= 0.0;
     _sag = sagOf(versine(half, acrossEquator ? 1.0 : std::max(cosSouth, cosNorth)));
-    const double lowest = std::min(reach, deepestPost(ellipsoid)) + _sag;
-    _isKnown = lowest < smallestCurvatureRadius(ellipsoid) * kAboveTheCentres;
     const double meridian = sagOf(2.0 * half.latitude);
     const HalfCell alongParallel{0.0, half.longitude};
     _edgeSag = {sagOf(versine(alongParallel, cosSouth)), meridian, sagOf(versine(alongParallel, cosNorth)), meridian};

@@ -83,7 +83,7 @@ void GeodeticMeshBounds::expandByTriangle(const glm::dvec3& a, const glm::dvec3&
             continue;
         }
         const LatitudeCone& cone = corner.z >= 0.0 ? _northCone : _southCone;
-        if (cone.holds(projected, std::abs(corner.z))) continue;
+        if (cone.excess(projected, std::abs(corner.z)) <= 0.0) continue;
         const double latitude = _ellipsoid.toGeodetic({projected, 0.0, corner.z}).latitude;
         corner.z >= 0.0 ? raiseNorth(latitude) : lowerSouth(latitude);
     }
@@ -105,14 +105,9 @@ void GeodeticMeshBounds::noteCrossing(const glm::dvec3 (&corners)[3]) noexcept {
 }
 
 GeodeticMeshBounds::LatitudeCone::LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept
-    : sinLatitude(std::sin(latitude)),
-      cosLatitude(std::cos(latitude)),
-      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude, cosLatitude) * sinLatitude *
-             cosLatitude) {}
-
-bool GeodeticMeshBounds::LatitudeCone::holds(double axisDistance, double absZ) const noexcept {
-    return absZ * cosLatitude - axisDistance * sinLatitude + offset <= 0.0;
-}
+    : _sin(std::sin(latitude)),
+      _cos(std::cos(latitude)),
+      _offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(_sin, _cos) * _sin * _cos) {}
 
 void GeodeticMeshBounds::raiseNorth(double latitude) noexcept {
     _latitude.upper = std::max(_latitude.upper, std::min(latitude, kHalfPi));

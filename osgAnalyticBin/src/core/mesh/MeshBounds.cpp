@@ -172,24 +172,6 @@ private:
     Extremes _altitudes, _slopes, _tangents, _rhos;
 };
 
-// The cone of all positions at a latitude, and how far beyond it, polewards on the side of its sign, vertices are.
-class Cone {
-public:
-    Cone(const Ellipsoid& ellipsoid, double latitude, double pole)
-        : _pole(pole), _sin(std::sin(latitude) * pole), _cos(std::cos(latitude)) {
-        const double e2 = ellipsoid.eccentricitySquared();
-        _offset = e2 * ellipsoid.primeVerticalRadius(_sin, _cos) * _sin * _cos;
-    }
-
-    // Metres polewards, negative within.
-    [[nodiscard]] double excess(double axisDistance, double z) const {
-        return _pole * z * _cos - axisDistance * _sin + _offset;
-    }
-
-private:
-    double _pole, _sin, _cos, _offset;
-};
-
 // One end of the latitudes: +1 the northern, -1 the southern.
 struct PolewardEnd {
     double pole;
@@ -198,12 +180,14 @@ struct PolewardEnd {
     bool atPole = false;
 };
 
-// The excess of each vertex. Returns: the largest.
-double excesses(const Cone& cone, const EcefMesh& mesh, const std::vector<double>& axisDistances,
-                std::vector<double>& excess) {
+// How far each vertex is beyond the guess, polewards. Returns: the largest.
+double excesses(const Ellipsoid& ellipsoid, const PolewardEnd& end, const EcefMesh& mesh,
+                const std::vector<double>& axisDistances, std::vector<double>& excess) {
+    const GeodeticMeshBounds::LatitudeCone cone(ellipsoid, end.guess * end.pole);
+    const double pole = end.pole;
     const std::size_t count = mesh.size();
     excess.resize(count);
-    for (std::size_t i = 0; i < count; ++i) excess[i] = cone.excess(axisDistances[i], mesh.z[i]);
+    for (std::size_t i = 0; i < count; ++i) excess[i] = cone.excess(axisDistances[i], pole * mesh.z[i]);
     double lanes[kLanes];
     std::fill(lanes, lanes + kLanes, -kInfinity);
     const std::size_t whole = count / kLanes * kLanes;
@@ -316,7 +300,7 @@ bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& me
     for (int side = 0; side < 2; ++side) {
         PolewardEnd& end = ends[side];
         if (end.atPole) continue;
-        end.excess = excesses(Cone(ellipsoid, end.guess, end.pole), mesh, _axisDistances, _excess[side]);
+        end.excess = excesses(ellipsoid, end, mesh, _axisDistances, _excess[side]);
         // chords run polewards; towards the equator they stay within their ends
         runs[side] = end.guess * end.pole > 0.0;
     }

@@ -7,7 +7,6 @@
 
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
-#include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/WriteFile>

@@ -27,22 +27,19 @@ struct GeodeticGrid {
 
 /// Bounds of a grid's triangles between their posts, in closed form and for any heights. Chords sag below the posts,
 /// and a chord between two posts of one parallel runs poleward of it.
-/// Guarantee: where isKnown(), on any ellipsoid of b/a from 0.01 to 100 in any unit, for posts at altitudes within
-/// +-`reach`, none deeper than half the smallest radius of curvature, every point of every triangle, and the rounded
-/// posts themselves up to 1.6e-14 equatorial radii (1e-7 m on the earth), has a latitude in latitude(), a longitude in
-/// the grid's, and an altitude between the lowest post's less sag() and the highest post's;
+/// Guarantee: where isKnown(), in any unit, for posts at altitudes within +-`reach`, every point of every triangle, and
+/// the rounded posts themselves up to 1.6e-14 equatorial radii (1e-7 m on the earth), has a latitude in latitude(), a
+/// longitude in the grid's, and an altitude between the lowest post's less sag() and the highest post's;
 /// tests: GeodeticGridBounds.*, PlanetMeshes.*.
-/// Cost: some ten trigonometric functions; fifty where |e2| is above 0.1 or the reach above a tenth of the radii.
+/// Cost: some ten trigonometric functions.
 /// Source: doc/theory/derivation.md, section 10.
 class GeodeticGridBounds final {
 public:
     /// `reach`: metres, the largest altitude of a post either way. Requires: 0 or more (asserted).
     GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept;
 
-    /// False when chords may sag below the centres of curvature, where a point has no unique latitude and altitude: on
-    /// flat ellipsoids, and with cells that are wide compared with the smallest radius of curvature. Such a grid has no
-    /// bounds, and its tile must not be culled. Always true where |e2| is below 0.1 and the reach below a tenth of
-    /// the radii.
+    /// True where |e2| is below 0.1 and the reach below a tenth of the radii, and in a map. Any other grid has no
+    /// bounds, its sags are infinite, and its tile must not be culled.
     [[nodiscard]] bool isKnown() const noexcept { return _isKnown; }
 
     /// Radians: the grid's latitudes, and what chords run poleward of them.

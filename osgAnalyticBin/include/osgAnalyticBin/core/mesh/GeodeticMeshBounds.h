@@ -17,6 +17,20 @@ namespace osgAnalyticBin::core {
 /// Source: doc/theory/derivation.md, section 5.
 class GeodeticMeshBounds final {
 public:
+    /// The cone of all positions at one latitude.
+    class LatitudeCone final {
+    public:
+        /// `latitude`: radians.
+        LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept;
+        /// Metres by which a point is beyond the cone, towards the north pole; negative: within.
+        [[nodiscard]] double excess(double axisDistance, double z) const noexcept {
+            return z * _cos - axisDistance * _sin + _offset;
+        }
+
+    private:
+        double _sin, _cos, _offset;
+    };
+
     /// Longitudes are measured from the reference, which should be near the middle of the mesh.
     /// Vertices closer to the axis than `axisTolerance` (in the ellipsoid's unit) have no longitude of their own and
     /// are taken at that of the others; the caller's margin has to cover the tolerance.
@@ -32,13 +46,6 @@ public:
     [[nodiscard]] GeodeticBin bin() const noexcept;
 
 private:
-    // The cone of all positions at one latitude, in the half of its own sign: what lies below it needs no closer look.
-    struct LatitudeCone {
-        LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept;
-        [[nodiscard]] bool holds(double axisDistance, double absZ) const noexcept;
-        double sinLatitude, cosLatitude, offset;
-    };
-
     void noteCrossing(const glm::dvec3 (&corners)[3]) noexcept;
     void raiseNorth(double latitude) noexcept;
     void lowerSouth(double latitude) noexcept;
@@ -50,8 +57,8 @@ private:
     Interval _latitude;
     Interval _relativeLongitude;
     Interval _altitude;
-    LatitudeCone _northCone;
-    LatitudeCone _southCone;
+    // Each in the half of its own sign, as if that were the northern one: what lies below needs no closer look.
+    LatitudeCone _northCone, _southCone;
     bool _fullCircle = false;
 };
 
