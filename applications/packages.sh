@@ -11,7 +11,7 @@ set -eu
 groups="
 demo | cmake g++ ninja-build | compile
 demo | libopenscenegraph-dev openscenegraph libgl1-mesa-dri | OpenSceneGraph and its viewer
-demo | libglm-dev libhwy-dev | headers of mathematics
+demo | libglm-dev libboost-dev libhwy-dev | headers of mathematics
 demo | libgdal-dev proj-data | osgbindem reads elevation rasters
 demo | libcli11-dev nlohmann-json3-dev | headers for command lines and JSON
 demo | ferret-datasets libncarg-data | elevation data: the earth, Trinidad in Colorado

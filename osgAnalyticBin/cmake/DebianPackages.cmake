@@ -67,6 +67,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 if(OSGANALYTICBIN_SIMD)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libhwy-dev")
 endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libboost-dev (>= 1.74)")  # component mappings
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
     "culling of paged terrain for OpenSceneGraph - development files
 Headers, the mathematics as a static library that does not need

@@ -21,11 +21,18 @@ install(
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
-install(TARGETS osgAnalyticBinMappings EXPORT osgAnalyticBinMappingsTargets
-        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
-set(_parts Core Kit Viewer Mappings)
-set(_pkgconfig_files osgAnalyticBinCore osgAnalyticBin osgAnalyticBinViewer osgAnalyticBinMappings)
-install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
+set(_headers_left_out PATTERN mappings EXCLUDE)
+set(_parts Core Kit Viewer)
+set(_pkgconfig_files osgAnalyticBinCore osgAnalyticBin osgAnalyticBinViewer)
+if(TARGET osgAnalyticBinMappings)
+  set(_headers_left_out "")
+  install(TARGETS osgAnalyticBinMappings EXPORT osgAnalyticBinMappingsTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  list(APPEND _parts Mappings)
+  list(APPEND _pkgconfig_files osgAnalyticBinMappings)
+endif()
+install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development
+        ${_headers_left_out})
 
 # The same in the build folder: find_package finds it there as soon as the folder of the programs is on PATH.
 foreach(_part IN LISTS _parts)

@@ -28,7 +28,7 @@ LAYERS = {
     "kit/install": (KIT, OSG | {"osgDB"}),
     "index": (TILE, OSG | {"osgDB"}),
     "occlusion": (TILE + ["kit/cull*"], OSG),
-    "mappings": (BASE + ["kit/cull"], GLM | {"osg"}),
+    "mappings": (BASE + ["kit/cull"], GLM | {"boost", "osg"}),
     "serializers": (KIT, OSG | {"osgDB"}),
     "plugin": (KIT, OSG | {"osgDB", "proj"}),
     "viewer": (KIT, OSG | {"osgDB", "osgGA", "osgText", "osgUtil", "osgViewer"}),
@@ -36,7 +36,7 @@ LAYERS = {
 # No unit includes another one that includes it in turn. Raise this for nothing.
 LARGEST_CYCLE = 1
 
-OTHERS = {"CLI11", "OpenThreads", "gdal", "glm", "hwy", "proj"}
+OTHERS = {"CLI11", "OpenThreads", "boost", "gdal", "glm", "hwy", "proj"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 
 

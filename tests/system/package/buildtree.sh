@@ -33,7 +33,7 @@ grep -q "osgAnalyticBin_DIR:PATH=$build/" "$scratch/path/CMakeCache.txt" || fail
 quietly cmake --build "$scratch/path"
 ctest --test-dir "$scratch/path" --output-on-failure --no-tests=error
 
-echo "== component core without OpenSceneGraph"
+echo "== component core without OpenSceneGraph and Boost"
 quietly cmake -S "$source/tests/system/consumer" -B "$scratch/core" -G Ninja -DosgAnalyticBin_DIR="$build/osgAnalyticBin" \
-    -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON
+    -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --build "$scratch/core"

@@ -46,10 +46,11 @@ quietly consumer build
 quietly cmake --build "$scratch/build"
 ctest --test-dir "$scratch/build" --output-on-failure --no-tests=error
 
-echo "== some components, as C++20; component core without OpenSceneGraph; the others say what they need"
-quietly consumer viewer "-DCONSUMER_COMPONENTS=kit;viewer" -DCMAKE_CXX_STANDARD=20
+echo "== without Boost all but mappings, as C++20; component core without OpenSceneGraph; the others say what they need"
+quietly consumer viewer "-DCONSUMER_COMPONENTS=kit;viewer" -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON -DCMAKE_CXX_STANDARD=20
 quietly cmake --build "$scratch/viewer"
-quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON
+! consumer mappings -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON >"$scratch/log" 2>&1 || fail "mappings was found without Boost"
+quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --build "$scratch/core"
 ! consumer kit -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON >"$scratch/log" 2>&1 || fail "kit was found without OSG"
 tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit, viewer and mappings need OpenSceneGraph" || {

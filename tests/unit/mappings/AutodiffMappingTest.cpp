@@ -57,6 +57,19 @@ struct AllFunctions {
     }
 };
 
+// A user's bound, taken at its word.
+struct SuppliedBound {
+    template <class T>
+    Vec3<T> operator()(T u, T v, T w) const {
+        using std::asin;  // has no enclosure
+        return {asin(u), v, w};
+    }
+    double remainder(const ParameterBox& box) const {
+        const double x = std::abs(box.center.x) + box.halfSize.x;
+        return (1.0 + 2.0 * x * x) / std::pow(1.0 - x * x, 2.5) * std::pow(box.halfSize.x, 3.0) / 6.0;
+    }
+};
+
 struct Cancelling {
     template <class T>
     Vec3<T> operator()(T u, T v, T w) const {
@@ -92,6 +105,8 @@ struct HasRealPower<T, std::void_t<decltype(pow(std::declval<T>(), 0.5))>> : std
 static_assert(!HasAsin<TaylorInterval>::value && !HasAbs<TaylorInterval>::value);
 static_assert(!HasOrder<TaylorInterval>::value && !HasRealPower<TaylorInterval>::value);
 static_assert(!std::is_convertible_v<TaylorInterval, double>);
+static_assert(core::HasRemainder<SuppliedBound>::value);
+static_assert(!core::HasRemainder<Pole>::value);
 
 ParameterBox randomBox(Random& random, double largest) {
     const auto reach = [&] { return random.logUniform(1e-4, largest); };
@@ -172,6 +187,13 @@ TEST(AutodiffMapping, MorePiecesAreTighter) {
     const double four = AutodiffMapping<AllFunctions>({}, 4).remainder(box);
     EXPECT_LT(two, one);
     EXPECT_LT(four, two);
+}
+
+TEST(AutodiffMapping, TakesTheBoundThatTheFormulaBrings) {
+    const AutodiffMapping<SuppliedBound> mapping({});
+    const ParameterBox box{{0.2, 0.0, 0.0}, {0.3, 1.0, 1.0}};
+    EXPECT_EQ(mapping.remainder(box), SuppliedBound().remainder(box));
+    expectRemainderHolds(mapping, box);
 }
 
 TEST(AutodiffMapping, CountsTheRoundingOfTheFormula) {
