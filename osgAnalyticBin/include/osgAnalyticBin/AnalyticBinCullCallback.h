@@ -160,8 +160,7 @@ public:
     void setInstalledTile(InstalledTile* tile);
 
     /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of
-    /// applications below the database. Returns: nullptr when nothing is hidden, or when the database covers a region
-    /// that the eye sees beyond.
+    /// applications below the database. Returns: nullptr when nothing is hidden.
     [[nodiscard]] static const core::HorizonEye* horizonEye(osg::NodeVisitor& visitor);
 
     /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.

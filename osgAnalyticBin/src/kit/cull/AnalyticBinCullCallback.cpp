@@ -268,7 +268,7 @@ bool AnalyticBinCullCallback::isSurelyInside(osg::CullStack& cullStack) const {
 
 const core::HorizonEye* AnalyticBinCullCallback::horizonEye(osg::NodeVisitor& visitor) {
     const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
-    return view && (!view->sight || view->sight->holdsAll()) ? view->eye : nullptr;
+    return view ? view->eye : nullptr;
 }
 
 InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {
@@ -335,8 +335,7 @@ std::optional<Verdict> AnalyticBinCullCallback::hiddenVerdict(const osg::Node& n
     const DatabaseView* const view = viewOn(cullStack, traversal);
     const bool isOccluded = view && view->selection->isOccluded(*this);
     const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-    const bool isBeyondHorizon = !isOccluded && eye && prepared().horizon && eye->hides(*prepared().horizon) &&
-                                 (!view || !view->sight || view->sight->holds(*prepared().horizon));
+    const bool isBeyondHorizon = !isOccluded && eye && prepared().horizon && eye->hides(*prepared().horizon);
     if (!(isOccluded || isBeyondHorizon) || !mayBeHidden(node, nv, view)) return std::nullopt;
     return Verdict{core::Side::Outside, isOccluded ? Verdict::Terrain : Verdict::Horizon};
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "DrawnState.h"
-#include "SightOverRegion.h"
 #include "TileSelection.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
@@ -54,7 +53,6 @@ struct DatabaseView {
     TileSelection* selection;
     DrawFamily drawFamily;                        // see SelectionDrawing
     StateRules rules{};                           // what the database's states are judged by
-    const SightOverRegion* sight = nullptr;       // of an eye over a region
     const osgUtil::StateGraph* states = nullptr;  // down to the database's root
 };
 

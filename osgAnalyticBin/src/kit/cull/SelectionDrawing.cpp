@@ -207,7 +207,7 @@ void drawFamily(osg::Group& group, const TileFamily& family, osg::NodeVisitor& v
     SelectionDrawing drawing(view, visitor, cullStack);
     if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides)) return drawing.draw(found);
     const TileSelection::Inner inner(selection);
-    SelectionWalk walk({visitor, cullStack, view}, mayHide ? view.eye : nullptr, mayHide ? view.sight : nullptr);
+    SelectionWalk walk({visitor, cullStack, view}, mayHide ? view.eye : nullptr);
     drawing.draw(walk.selectBelow(group, family));
 }
 

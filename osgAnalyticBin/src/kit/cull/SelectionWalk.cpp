@@ -24,8 +24,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight) {
-    TileFamily::Hiding hiding{eye, sight};
+TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonEye* eye) {
+    TileFamily::Hiding hiding{eye};
     if (!eye || !(eye->data().cosDip > 0.0)) return hiding;
     // In the space where the ellipsoid is the unit sphere, a length is at most that in metres over the smaller radius.
     const core::Ellipsoid& ellipsoid = selected.view.ellipsoid;
@@ -67,17 +67,16 @@ private:
     const Scoped<Number> _segment, _in;
 };
 
-SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight)
-    : SelectionWalk(selected, eye, sight, {std::nullopt, 0.0, 0.0, false}) {
+SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye)
+    : SelectionWalk(selected, eye, {std::nullopt, 0.0, 0.0, false}) {
     _searches = false;
 }
 
-SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight,
-                             const Search& search)
+SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const Search& search)
     : _selected(selected),
       _visitor(selected.visitor),
       _selection(*selected.view.selection),
-      _hiding(hidingFrom(selected, eye, sight)),
+      _hiding(hidingFrom(selected, eye)),
       _place(search.place),
       _occluder(search.occluder),
       _deepest(search.deepest),

@@ -41,7 +41,7 @@ struct SelectedView {
 class SelectionWalk {
 public:
     /// Selects, and collects no evidence. `eye` null: nothing is hidden.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight);
+    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye);
 
     /// What evidence is collected for.
     struct Search {
@@ -51,8 +51,7 @@ public:
         bool isEager;                         ///< a tile that is not drawn whole ends the walk at once
     };
     /// The same with evidence. A hole ends the walk, and what was selected is of no use then.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight,
-                  const Search& search);
+    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const Search& search);
 
     /// Walks over the database.
     void select(osg::Group& root);

@@ -32,9 +32,7 @@ bool isTrusted(const ShownDatabase& database, const SelectionWalk& walk, const s
 
 // Selects for an eye.
 SelectionWalk walkFor(const ShownDatabase& database, const core::HorizonEye& eye, const SelectionWalk::Search& search) {
-    std::optional<SightOverRegion> sight;
-    if (database.region) sight.emplace(eye, *database.region, database.selected.view.planes);
-    SelectionWalk walk(database.selected, &eye, sight ? &*sight : nullptr, search);
+    SelectionWalk walk(database.selected, &eye, search);
     walk.select(database.root);
     return walk;
 }
@@ -60,6 +58,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
             depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
+        if (database.region && !database.region->holdsHorizonOf(*eye)) return std::nullopt;
         const SelectionWalk lowest = walkFor(database, *eye, {place, depth, deepest, database.expectsHole});
         if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
@@ -88,8 +87,7 @@ std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, con
 bool selectWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint) {
     constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
     const std::optional<core::Geodetic> place = placeOf(viewpoint, database.selected.view.ellipsoid);
-    SelectionWalk walk(database.selected, nullptr, nullptr,
-                       {place, -kUnknownDepth, kUnknownDepth, database.expectsHole});
+    SelectionWalk walk(database.selected, nullptr, {place, -kUnknownDepth, kUnknownDepth, database.expectsHole});
     walk.select(database.root);
     return isTrusted(database, walk, place);
 }

@@ -11,7 +11,6 @@
 #include "CullTraversal.h"
 #include "DrawnState.h"
 #include "InstalledBin.h"
-#include "SightOverRegion.h"
 
 #include <osg/CoordinateSystemNode>
 
@@ -174,7 +173,6 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.beyond =
         hiding.eye && !isNear ? part.bins.hiddenFrom(*hiding.eye, verdicts.tested & ~verdicts.planes.outside) : 0;
     verdicts.hidden = obeyDepth ? hideable(first, verdicts.beyond & part.hideable) : 0;
-    if (verdicts.hidden != 0 && hiding.sight) verdicts.hidden = hiding.sight->heldIn(part.bins, verdicts.hidden);
     const std::size_t end =
         std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
     for (std::size_t i = first; i < end; ++i) {

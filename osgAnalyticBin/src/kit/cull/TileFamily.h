@@ -23,7 +23,6 @@
 
 namespace osgAnalyticBin {
 
-class SightOverRegion;
 struct DatabaseView;
 
 /// The cull callback of a group with tiles among its children, which are tested together, and what is known of the
@@ -78,9 +77,8 @@ public:
     /// What hides tiles; null: nothing.
     struct Hiding {
         const core::HorizonEye* eye = nullptr;
-        const SightOverRegion* sight = nullptr;  ///< of an eye over a region
-        osg::Vec3d at{};                         ///< of the eye
-        double tangent = 0.0;                    ///< metres from there within which the horizon hides nothing
+        osg::Vec3d at{};       ///< of the eye
+        double tangent = 0.0;  ///< metres from there within which the horizon hides nothing
     };
     /// Tests the children from `first` on, a multiple of kMost. `obeyDepth`: whether they do by the states above.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,

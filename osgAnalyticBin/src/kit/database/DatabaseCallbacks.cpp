@@ -68,16 +68,21 @@ bool isHoleTakenForGranted(OcclusionUse use, SearchMemory::LastView& last) {
 // What is hidden by the horizon in a view.
 struct Horizon {
     std::optional<core::HorizonEye> eye;
-    std::optional<core::CoveredRegion> region;  // that the eye is over
-    bool isSelected = false;                    // what is drawn is selected already
-    std::optional<double> nearReach;            // of an eye, see Viewpoint
-    osg::ref_ptr<TerrainHider> hider;           // null: terrain hides nothing
+    bool isSelected = false;           // what is drawn is selected already
+    std::optional<double> nearReach;   // of an eye, see Viewpoint
+    osg::ref_ptr<TerrainHider> hider;  // null: terrain hides nothing
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
     if (!viewpoint.eye()) return false;
     const core::Geodetic at = region.ellipsoid().toGeodetic(*viewpoint.eye());
     return region.contains({{at.latitude, at.latitude}, {at.longitude, at.longitude}, {0.0, 0.0}});
+}
+
+// Whether the eye sees past the region's border before its horizon, however high the terrain is.
+bool isHorizonPast(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
+    const auto eye = viewpoint.above(region.ellipsoid(), 0.0);
+    return eye && !region.holdsHorizonOf(*eye);
 }
 
 // Whether a callback of the application's at the database's root or above may leave tiles out, or have them drawn
@@ -226,8 +231,8 @@ void tellOthers(const SelectedView& selected, const Horizon& horizon) {
     };
     // where nobody asks, finding out would take longer than saying that it may be
     const bool isAsked = !horizon.hider && horizon.eye && hiding.isInUse(*visitor);
-    hiding.set(*visitor, {selected.view.ellipsoid, horizon.eye, horizon.region, selected.view.planes, horizon.hider,
-                          !horizon.hider && (!isAsked || isCutOpen())});
+    hiding.set(*visitor,
+               {selected.view.ellipsoid, horizon.eye, horizon.hider, !horizon.hider && (!isAsked || isCutOpen())});
 }
 
 Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& options) {
@@ -260,7 +265,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         shown.region = nullptr;
         miss(isAboveTerrain(options) ? kNoGaps : "options without skirts=all");
         const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
-        return note({eye, {}, eye.has_value(), {}, {}});
+        return note({eye, eye.has_value(), {}, {}});
     }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.report(Finding::EyeBesideRegion);
@@ -280,7 +285,8 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     if (visitor.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
-    const auto eye = isMap ? std::nullopt : eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
+    const bool hasHorizon = !isMap && !(region && isHorizonPast(*region, *viewpoint));
+    const auto eye = hasHorizon ? eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth) : std::nullopt;
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
     osg::ref_ptr<TerrainHider> hider;
@@ -290,8 +296,8 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         noteHidden({}, last);
         miss("an eye above the ground, and tiles in view without holes and callbacks");
     }
-    // a map in which occlusion rests was not searched
-    return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected, {}, hider});
+    // where there is no horizon and occlusion rests there was no search
+    return !hasHorizon && !findsOccluded ? Horizon() : note({eye, isSelected, {}, hider});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -375,9 +381,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     // callbacks of the application's run before what is drawn is selected then
     if (!horizon.isSelected) view.selection->clear();
     if (horizon.isSelected) tellOthers(shown.selected, horizon);
-    std::optional<SightOverRegion> sight;
     if (horizon.eye) view.eye = &*horizon.eye;
-    if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
     {
         const CullTraversal::DatabaseScope scope(nv, traversal, &view);
         traverse(&node, &nv);
