@@ -9,18 +9,29 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/Plane.h>
 
+#include <osg/BoundingBox>
 #include <osg/Drawable>
+#include <osg/Matrixd>
 #include <osg/Node>
 #include <osg/PagedLOD>
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <optional>
 
 namespace osgAnalyticBin {
+
+/// The distance from the plane of the eye to the farthest corner of a box, as osgUtil::CullVisitor computes its far
+/// plane. `toEye`: from the box's frame to eye space. Requires: a valid box.
+[[nodiscard]] inline double farthestDepth(const osg::BoundingBox& box, const osg::Matrixd& toEye) {
+    double depth = -toEye(3, 2);
+    for (int i = 0; i < 3; ++i) depth += std::max(-toEye(i, 2) * box._min[i], -toEye(i, 2) * box._max[i]);
+    return depth;
+}
 
 /// A tile of a family at the time when the family was made, as far as cull traversals need it besides its bin. It draws
 /// the tile's own mesh like osgUtil::CullVisitor, in less time: it adds the drawables without creating a culling set

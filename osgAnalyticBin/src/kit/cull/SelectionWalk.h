@@ -26,13 +26,6 @@
 
 namespace osgAnalyticBin {
 
-/// The traversal that a database is selected for.
-struct SelectedView {
-    osg::NodeVisitor& visitor;
-    osg::CullStack& cullStack;
-    const DatabaseView& view;
-};
-
 /// The walk over the tiles that a camera's levels of detail show, which makes the selection of a view. It tests
 /// siblings together, chooses levels as osg::PagedLOD does, and keeps what is in view and not hidden. On the way it
 /// collects the evidence that what hides is drawn: it also goes to tiles out of view where lines of sight pass above
@@ -40,18 +33,16 @@ struct SelectedView {
 /// is kept. Source: doc/theory/horizon.md, section 8.
 class SelectionWalk {
 public:
-    /// Selects, and collects no evidence. `eye` null: nothing is hidden.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye);
-
     /// What evidence is collected for.
     struct Search {
         std::optional<core::Geodetic> place;  ///< of the eye, where it has one
-        double occluder;                      ///< metres below the ellipsoid of the occluder; minus infinity: none
-        double deepest;                       ///< the same: nothing is drawn below
-        bool isEager;                         ///< a tile that is not drawn whole ends the walk at once
+        double occluder = 0.0;                ///< metres below the ellipsoid of the occluder; minus infinity: none
+        double deepest = 0.0;                 ///< the same: nothing is drawn below
+        bool isEager = false;                 ///< a tile that is not drawn whole ends the walk at once
     };
-    /// The same with evidence. A hole ends the walk, and what was selected is of no use then.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const Search& search);
+    /// `eye` null: nothing is hidden. `search` null: no evidence is collected. Otherwise a hole ends the walk, and what
+    /// was selected is of no use then.
+    SelectionWalk(const DatabaseView& view, const core::HorizonEye* eye, const Search* search);
 
     /// Walks over the database.
     void select(osg::Group& root);
@@ -90,7 +81,6 @@ private:
         bool isCertain = false;  // see InstalledTile; in doubt that has to be asked
         Number kept = TileSelection::kNone;
     };
-    class Below;
 
     void selectChildren(osg::Group& group, const TileFamily* family);
     void selectFamily(osg::Group& group, const TileFamily& family);
@@ -137,14 +127,11 @@ private:
     }
     [[nodiscard]] bool isLeftOutInView(const Tile& tile, const osg::Node& mesh) const;
 
-    const SelectedView _selected;
+    const DatabaseView& _view;
     osg::NodeVisitor& _visitor;
     TileSelection& _selection;
     const TileFamily::Hiding _hiding;
-    const std::optional<core::Geodetic> _place;  // of the eye
-    const double _occluder;                      // metres below the ellipsoid
-    const double _deepest;                       // likewise
-    const bool _isEager;
+    const Search _search;
     const bool _isPlainVisitor;
     const osg::Polytope::PlaneList& _planes;
     bool _testsSmallFeatures = false;

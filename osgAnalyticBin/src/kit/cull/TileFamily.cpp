@@ -7,7 +7,7 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../tile/InstalledTile.h"
-#include "BinCulling.h"
+#include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
 #include "InstalledBin.h"
@@ -142,7 +142,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
 }
 
 // The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
-bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
+bool TileFamily::culls(const osg::Node& group, const DatabaseView& view) const {
+    osg::CullStack& cullStack = view.cullStack;
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
     return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
            view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
@@ -150,15 +151,14 @@ bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const 
 }
 
 void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    osg::CullStack* const cullStack = nv->asCullStack();
-    CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
+    CullTraversal* const traversal = nv->asCullStack() ? &CullTraversal::of(*nv) : nullptr;
     const DatabaseView* const view =
         traversal && !traversal->statistics().isTileByTile() ? traversal->databaseView() : nullptr;
-    if (!view || !culls(*node, *cullStack, *view)) {
+    if (!view || !culls(*node, *view)) {
         traverse(node, nv);
         return;
     }
-    view->drawFamily(*node->asGroup(), *this, *nv, *cullStack, *view);
+    draw(*node->asGroup(), *view);
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,

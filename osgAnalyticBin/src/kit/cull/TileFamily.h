@@ -55,6 +55,14 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    /// Draws what is kept below the group, to which OSG's traversal has come: by what was selected before, or, where
+    /// that does not hold for this traversal, by a selection that is made now.
+    /// Guarantee: the visitor comes to all that is kept as it would through OSG's nodes, in the same order, with the
+    /// same states, node paths and culling masks, and with time stamps of the levels on the way; tests: TileFamily.*,
+    /// FamilyTile.*, PagedFlight.*, Selection.*. Of what callbacks of an application change on nodes meanwhile, masks
+    /// count at once; all else may count from the next traversal on. Requires: culls().
+    void draw(osg::Group& group, const DatabaseView& view) const;
+
     /// The results for up to TileBlock::Part::kMost children, one bit each.
     struct Verdicts {
         Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
@@ -72,7 +80,7 @@ public:
     };
 
     /// Whether the family may cull the children of the group in this traversal.
-    [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
+    [[nodiscard]] bool culls(const osg::Node& group, const DatabaseView& view) const;
 
     /// What hides tiles; null: nothing.
     struct Hiding {

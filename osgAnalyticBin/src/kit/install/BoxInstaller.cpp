@@ -4,7 +4,7 @@
 #include "BoxInstaller.h"
 
 #include "../CallbackChain.h"
-#include "../cull/BinCulling.h"
+#include "../cull/CullScopes.h"
 #include "../cull/InstalledBin.h"
 #include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"

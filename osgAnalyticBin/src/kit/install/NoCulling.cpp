@@ -4,7 +4,7 @@
 #include "NoCulling.h"
 
 #include "../CallbackChain.h"
-#include "../cull/BinCulling.h"
+#include "../cull/CullScopes.h"
 
 #include <osg/CullStack>
 #include <osg/CullingSet>
