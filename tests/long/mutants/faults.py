@@ -580,7 +580,7 @@ FAULTS = [
           "(void)drawable.getDrawCallback();", SCENES,
           NAMED),
     Fault("state: callbacks that may change a drawable do not matter", "src/kit/cull/SelectionEvidence.cpp",
-          "if (mayChange(*part) || !isSurelyDrawn", "if (!isSurelyDrawn", NODE, "Evidence.*"),
+          "if (mayChange(part) || !isSurelyDrawn", "if (!isSurelyDrawn", NODE, "Evidence.*"),
     Fault("state: drawables of the application's classes are harmless", "src/kit/cull/DrawnState.cpp",
           "if (!isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable)) return kUnknown;", "", SCENES,
           NAMED),

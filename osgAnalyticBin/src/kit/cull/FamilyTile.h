@@ -63,8 +63,6 @@ public:
     /// enters each of them. Returns: nullptr behind the last one; of all, where the mesh is not known.
     [[nodiscard]] osg::Node* part(std::size_t i) const { return i < kMostParts ? _parts[i].node.get() : nullptr; }
     [[nodiscard]] bool isMesh(const osg::Node& node) const { return &node == part(0); }
-    /// Whether part(i) is a tile of osgTerrain.
-    [[nodiscard]] bool isTerrain(std::size_t i) const { return _parts[i].kind == Kind::Terrain; }
 
     /// Whether meshes can be drawn in this traversal.
     [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);

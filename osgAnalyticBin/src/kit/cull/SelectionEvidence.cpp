@@ -233,19 +233,11 @@ bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const
 // Whether all of a tile's own mesh is drawn.
 bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
                                  const FamilyTile* member) const {
-    if (!member || !member->isMesh(mesh)) {
-        const InstalledTile* const installed = tile.getInstalledTile();
-        const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
-        bool hasDrawable = false;
-        return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
-    }
-    if (member->isBareMesh(_visitor)) return true;
-    for (std::size_t i = 0; const osg::Node* const part = member->part(i); ++i) {
-        const bool mayLeaveOut = part->getCullCallback() && CullCallbacks(*part).mayLeaveOut;
-        if (mayChange(*part) || !isSurelyDrawn(*part, mayLeaveOut)) return false;
-        if (member->isTerrain(i) && !isDrawnByTechnique(*part)) return false;
-    }
-    return true;
+    if (member && member->isMesh(mesh) && member->isBareMesh(_visitor)) return true;
+    const InstalledTile* const installed = tile.getInstalledTile();
+    const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
+    bool hasDrawable = false;
+    return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
 }
 
 bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
