@@ -39,7 +39,7 @@ void HorizonBuffer::add(const EarthColumns& columns) {
     static_assert(kMost % kernels::kMostLanes == 0);
     std::array<double, WallRow::kCount * kMost> rows;
     const kernels::Walls walls = kernels::activeOcclusion.walls(
-        _picture, {columns._corners.data(), columns._error.data(), kMost, columns._size}, rows.data());
+        _picture, {columns.corners.data(), columns.error.data(), kMost, columns.size}, rows.data());
     _nearestEarth2 = std::min(_nearestEarth2, walls.nearest2);
     for (std::uint64_t left = walls.bits; left != 0; left &= left - 1) {
         const double* const numbers = rows.data() + firstBit(left);

@@ -55,8 +55,6 @@ public:
     /// Whether a traversal may pass by the tile's own callback and OSG's test of its sphere. It requires, besides: a
     /// visitor of exactly the class osgUtil::CullVisitor, and a tile with the bin's callback in front.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
-    /// Whether the tile is its own mesh: it has no levels.
-    [[nodiscard]] bool isOwnMesh() const { return _isOwnMesh; }
 
     static constexpr std::size_t kMostParts = 4;
     /// A node of the own mesh, parents before children: part(0) is the mesh. OSG draws the whole mesh as long as it
