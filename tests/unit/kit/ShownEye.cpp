@@ -43,6 +43,7 @@ public:
                                 nullptr,
                                 earth(),
                                 {},
+                                &selection,
                                 &selection};
         eye = eyeAboveWhatIsShown(view, *viewpoint, _deepest, depth);
     }

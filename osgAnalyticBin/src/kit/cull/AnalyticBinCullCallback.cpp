@@ -350,7 +350,7 @@ bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisito
 BinReason AnalyticBinCullCallback::hiddenBy(const osg::Node& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                                             CullTraversal& traversal) const {
     const DatabaseView* const view = viewOn(cullStack, traversal);
-    const bool isOccluded = view && view->selection->isOccluded(*this);
+    const bool isOccluded = view && view->hidden->isOccluded(*this);
     const auto isBeyondHorizon = [&] {
         if (!prepared().horizon) return false;
         if (view) return view->eye && view->eye->hides(*prepared().horizon);

@@ -48,7 +48,8 @@ struct DatabaseView {
     const InstalledDatabase* database;
     core::Ellipsoid ellipsoid;
     TerrainShape shape;
-    TileSelection* selection;
+    TileSelection* selection;                     // of what is drawn
+    TileSelection* hidden;                        // knows which tiles terrain hides
     StateRules rules{};                           // what the database's states are judged by
     const osgUtil::StateGraph* states = nullptr;  // down to the database's root
     const core::CoveredRegion* region = nullptr;  // that is covered; null: the globe

@@ -56,29 +56,20 @@ private:
     // Numbers of places grow from the outside inward.
     template <class Above, class Push, class Pop>
     void change(std::vector<Number>& entered, Number wanted, const Above& above, const Push& push, const Pop& pop) {
-        _missing.clear();
-        Number at = wanted;
-        while (true) {
-            const Number last = entered.empty() ? kNone : entered.back();
-            if (at == last) break;
-            if (last == kNone || (at != kNone && at > last)) {
-                _missing.push_back(at);
-                at = above(at);
-            } else {
-                entered.pop_back();
-                pop();
-            }
+        while (!entered.empty() && (wanted == kNone || wanted < entered.back())) {
+            entered.pop_back();
+            pop();
         }
-        for (auto next = _missing.rbegin(); next != _missing.rend(); ++next) {
-            entered.push_back(*next);
-            push(*next);
-        }
+        if (wanted == (entered.empty() ? kNone : entered.back())) return;
+        change(entered, above(wanted), above, push, pop);
+        entered.push_back(wanted);
+        push(wanted);
     }
 
     const TileSelection& _selection;
     osg::NodeVisitor& _visitor;
     osgUtil::CullVisitor* const _cullVisitor;
-    std::vector<Number> _states, _path, _missing;
+    std::vector<Number> _states, _path;
 };
 
 // Enters a node as osgUtil::CullVisitor does it, without its test of the sphere: for nodes that were tested together
@@ -220,11 +211,18 @@ void TileFamily::draw(osg::Group& group, const DatabaseView& view) const {
     const TileSelection::Number found = areSame ? selection.find(*this, undecided) : TileSelection::kNone;
     const bool mayHide = (found == TileSelection::kNone ? view.eye != nullptr : selection.segment(found).hides) &&
                          drawnStateAbove(view.visitor, view.rules, view.states).obeysDepth;
-    SelectionDrawing drawing(view);
-    if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides)) return drawing.draw(found);
-    const TileSelection::Inner inner(selection);
-    SelectionWalk walk(view, mayHide ? view.eye : nullptr, nullptr);
-    drawing.draw(walk.selectBelow(group, *this));
+    if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides))
+        return SelectionDrawing(view).draw(found);
+    CullTraversal& traversal = CullTraversal::of(view.visitor);
+    DatabaseView own = view;
+    own.selection = &traversal.selection();
+    own.selection->begin(TileSelection::Conditions::of(view.visitor, view.cullStack));
+    {
+        const CullTraversal::DatabaseScope scope(view.visitor, traversal, &own);
+        SelectionWalk walk(own, mayHide ? own.eye : nullptr, nullptr);
+        SelectionDrawing(own).draw(walk.selectBelow(group, *this));
+    }
+    own.selection->clear();
 }
 
 }  // namespace osgAnalyticBin

@@ -193,13 +193,7 @@ bool SelectionWalk::isLeftOut(const osg::Node& node) const {
     const core::PlaneMask planes = _toEcef ? ~core::PlaneMask{0} : _undecided;
     if (planes == 0 || !node.isCullingActive()) return false;
     const osg::BoundingSphere sphere = sphereOf(node);
-    if (!sphere.valid()) return false;
-    const osg::Vec3d center(sphere.center());
-    for (std::uint64_t left = planes & lowestBits(static_cast<unsigned int>(_planes.size())); left != 0;
-         left &= left - 1) {
-        if (_planes[firstBit(left)].distance(center) < -static_cast<double>(sphere.radius())) return true;
-    }
-    return false;
+    return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius(), planes);
 }
 
 bool SelectionWalk::isSmallFeature(const osg::Node& node) const {
@@ -277,9 +271,11 @@ bool SelectionWalk::isBeside(const Tile& tile) const {
     return tile.isFitted && isBesideFrustum(tile.numbers.column);
 }
 
-bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius) const {
-    return std::any_of(_planes.begin(), _planes.end(),
-                       [&](const osg::Plane& plane) { return plane.distance(center) < -radius; });
+bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius, core::PlaneMask planes) const {
+    for (std::size_t i = 0; planes != 0 && i < _planes.size(); ++i, planes >>= 1) {
+        if ((planes & 1) != 0 && _planes[i].distance(center) < -radius) return true;
+    }
+    return false;
 }
 
 // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.

@@ -121,7 +121,8 @@ private:
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const;
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const;
     [[nodiscard]] bool isBeside(const Tile& tile) const;
-    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius) const;
+    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius,
+                                       core::PlaneMask planes = ~core::PlaneMask{0}) const;
     [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
         return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius());
     }

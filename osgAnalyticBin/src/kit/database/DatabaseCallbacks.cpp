@@ -370,6 +370,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       toCore(*_database->ellipsoid()),
                       _database->shape(options),
                       &traversal.selection(),
+                      &traversal.selection(),
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
     const auto region = _database->region();
