@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/TerrainShape.h>
@@ -36,7 +37,6 @@ class CullTraversal;
 class InstalledTile;
 class TileFamily;
 struct DatabaseView;
-struct Verdict;
 
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
 /// the tile when the bin is outside one of them. OSG tests the node's sphere before, as on any node; installBins() has
@@ -160,8 +160,7 @@ public:
     void setInstalledTile(InstalledTile* tile);
 
     /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of
-    /// applications below the database. Returns: nullptr when nothing is hidden, or when the database covers a region
-    /// that the eye sees beyond.
+    /// applications below the database. Returns: nullptr when nothing is hidden.
     [[nodiscard]] static const core::HorizonEye* horizonEye(osg::NodeVisitor& visitor);
 
     /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.
@@ -216,13 +215,13 @@ private:
     [[nodiscard]] bool readItem(const std::string& item);
     [[nodiscard]] core::QuadraticOrExact preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const DatabaseView* viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const;
-    [[nodiscard]] const core::HorizonEye* eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
-                                                             CullTraversal& traversal) const;
+    [[nodiscard]] std::optional<core::HorizonEye> eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                                     const CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] bool isSurelyInside(osg::CullStack& cullStack) const;
-    [[nodiscard]] std::optional<Verdict> hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,
-                                                       osg::CullStack& cullStack, CullTraversal& traversal) const;
+    [[nodiscard]] BinReason hiddenBy(const osg::Node& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                                     CullTraversal& traversal) const;
     [[nodiscard]] bool mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const;
     [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 

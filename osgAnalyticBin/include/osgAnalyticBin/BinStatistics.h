@@ -10,6 +10,7 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -43,6 +44,9 @@ struct BinCounts {
     unsigned int frame = 0;
 };
 
+/// Why a bin is outside: one of the last counters before `frame`; null: by a plane.
+using BinReason = std::uint32_t BinCounts::*;
+
 /// The counters of one cull visitor. They live in the visitor's user data container, so that cull threads share
 /// nothing: each visitor is used by one thread at a time. A new frame number starts from zero.
 class OSGANALYTICBIN_EXPORT BinStatistics : public osg::Object {
@@ -60,18 +64,10 @@ public:
     [[nodiscard]] static const BinStatistics* find(const osg::NodeVisitor& visitor);
 
     /// Counts one tested tile.
-    void count(core::Side side, unsigned int frame) noexcept;
+    void count(core::Side side, unsigned int frame, BinReason reason = nullptr) noexcept;
 
     /// Counts several tested tiles of the frame that `counts` names; `tested` is not read.
     void add(const BinCounts& counts) noexcept;
-
-    /// Records why the tile counted last was outside.
-    void countHidden() noexcept;
-    /// Records that the tile counted last was beyond an edge of the frustum.
-    void countBeyondEdge() noexcept;
-
-    /// Records that the tile counted last was behind terrain.
-    void countOccluded() noexcept;
 
     /// For visitors that watch which nodes they meet. With true, tiles are tested one by one and the visitor meets the
     /// culled ones too; without it, siblings are tested together and culled ones are not visited. The verdicts are the
@@ -106,12 +102,7 @@ private:
 
     void beginFrame(unsigned int frame) noexcept;
 
-    std::atomic<std::uint32_t> _outside{0};
-    std::atomic<std::uint32_t> _inside{0};
-    std::atomic<std::uint32_t> _straddling{0};
-    std::atomic<std::uint32_t> _hidden{0};
-    std::atomic<std::uint32_t> _beyondEdge{0};
-    std::atomic<std::uint32_t> _occluded{0};
+    std::array<std::atomic<std::uint32_t>, 6> _counters{};  // all but `tested` and `frame`
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
     osg::ref_ptr<osg::Referenced> _traversal;  // what culling keeps with the visitor

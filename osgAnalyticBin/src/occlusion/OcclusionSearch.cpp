@@ -114,7 +114,6 @@ public:
             const Finding inPicture = candidate.isHidden ? hidden : Finding::Seen;
             _found->findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
         }
-        _found->profile.reset();
         _found->earth = std::move(_buffer);
         return std::move(_found);
     }

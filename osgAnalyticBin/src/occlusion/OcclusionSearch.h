@@ -13,7 +13,6 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
-#include <osgAnalyticBin/core/occlusion/HorizonProfile.h>
 
 #include <glm/vec3.hpp>
 
@@ -59,9 +58,8 @@ struct FoundOcclusion {
     double neededReach = 0.0;       ///< where OSG computes that plane: the same of the last view
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
-    std::optional<core::HorizonBuffer> earth;     ///< all that hides
-    std::optional<core::HorizonProfile> profile;  ///< the same, once it is asked for
-    int uses = 0;                                 ///< views since the search
+    std::optional<core::HorizonBuffer> earth;  ///< all that hides; sorted once it is asked for
+    int uses = 0;                              ///< views since the search
     /// @{
     /// Since the search; see follow().
     std::vector<core::GeodeticBin> come;      ///< of tiles that were not shown then

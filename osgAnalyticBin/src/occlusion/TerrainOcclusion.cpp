@@ -294,12 +294,13 @@ void TerrainOcclusion::searchAhead(const View& view, const LevelView& lines, con
 bool TerrainOcclusion::hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) {
     if (!_found || !_found->earth) return false;
     FoundOcclusion& found = *_found;
-    if (!found.profile) found.profile.emplace(*found.earth);
+    core::HorizonBuffer& earth = *found.earth;
+    if (!earth.isSorted()) earth.sort();
     const glm::dvec3 from = centre - found.eye.origin;
     const core::BinBall ball{{glm::dot(from, found.eye.x), glm::dot(from, found.eye.y), glm::dot(from, found.eye.z)},
                              radius};
-    const core::HorizonBuffer::Outline outline = found.profile->outlineOf(ball);
-    return (isBehindHorizon && found.profile->isAboveLowest(outline)) || found.profile->hides(outline);
+    const core::HorizonBuffer::Outline outline = earth.outlineOf(ball);
+    return (isBehindHorizon && earth.isAboveLowest(outline)) || earth.hidesInAnyOrder(outline);
 }
 
 osg::ref_ptr<TerrainHider> makeTerrainHider() {

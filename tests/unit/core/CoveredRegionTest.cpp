@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Oracle: latitudes and longitudes of points along segments to all corners of the region.
+// Oracle: latitudes and longitudes of points along segments to all corners of the region, and along lines of sight to
+// where they meet the occluder.
 
 #include "RandomRegions.h"
 
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <support/Random.h>
 #include <support/RandomBins.h>
 
@@ -21,6 +25,7 @@ using core::CoveredRegion;
 using core::Ellipsoid;
 using core::Geodetic;
 using core::GeodeticBin;
+using core::HorizonEye;
 
 TEST(CoveredRegion, HoldsAllSegments) {
     Random random(1702);
@@ -53,6 +58,61 @@ TEST(CoveredRegion, HoldsAllSegments) {
     }
     EXPECT_GT(over, 1200) << "nothing is tested";
     EXPECT_GT(held, 0.85 * over);
+}
+
+// By points where lines of sight meet the occluder, half of them on the horizon.
+bool seesOccluderOverRegion(const GeodeticBin& region, const Ellipsoid& ellipsoid, const HorizonEye& eye,
+                            const glm::dvec3& eyeEcef, Random& random) {
+    const auto& data = eye.data();
+    const glm::dvec3 toEye(data.x, data.y, data.z);
+    const glm::dvec3 aside = glm::normalize(glm::cross(toEye, random.direction()));
+    const glm::dvec3 ahead = glm::cross(toEye, aside);
+    const glm::dvec3 radii(ellipsoid.equatorialRadius(), ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    constexpr int kDirections = 64;
+    const double dip = std::atan2(data.sinDip, data.cosDip);
+    for (int i = 0; i < 2 * kDirections; ++i) {
+        const double angle = 2.0 * kPi * i / kDirections;
+        const double down = i < kDirections ? dip : dip * random.uniform();
+        const glm::dvec3 direction =
+            std::cos(down) * toEye + std::sin(down) * (std::cos(angle) * ahead + std::sin(angle) * aside);
+        if (!isSegmentOver(region, ellipsoid, eyeEcef, data.scale * radii * direction)) return false;
+    }
+    return true;
+}
+
+TEST(CoveredRegion, HoldsTheHorizonWhereAllOfItIsOverTheRegion) {
+    Random random(1701);
+    int held = 0, over = 0;
+    for (int trial = 0; trial < 8000; ++trial) {
+        const Ellipsoid ellipsoid = randomGlobe(random);
+        const double radius = ellipsoid.polarRadius();
+        const GeodeticBin region = randomRegion(random);
+        const auto [south, north] = region.latitude();
+        const auto [west, east] = region.longitude();
+        const double dip = 0.5 * std::max(north - south, east - west) * random.logUniform(0.02, 1.5);
+        const double height = std::min(0.5 * radius * dip * dip, 10.0 * radius) * random.uniform(0.3, 1.0);
+        const double depth = random.chance(0.3) ? 0.0 : height * random.logUniform(1e-3, 1.0);
+        const glm::dvec3 eyeEcef = ellipsoid.toEcef({random.uniform(south, north), random.uniform(west, east), height});
+        const auto eye = HorizonEye::fromEye(ellipsoid, depth, eyeEcef);
+        if (!eye) continue;
+        const bool isTrue = seesOccluderOverRegion(region, ellipsoid, *eye, eyeEcef, random);
+        const bool isHeld = CoveredRegion(ellipsoid, region).holdsHorizonOf(*eye);
+        EXPECT_TRUE(isTrue || !isHeld) << "trial " << trial;
+        over += isTrue;
+        held += isHeld;
+    }
+    EXPECT_GT(over, 1000) << "nothing is tested";
+    EXPECT_GT(held, 0.93 * over);
+}
+
+TEST(CoveredRegion, HoldsTheHorizonOfAGlobeButOfNoOrthographicCamera) {
+    const auto eye = HorizonEye::fromEye(wgs84(), 100.0, wgs84().toEcef({0.3, 3.1, 1e7}));
+    const auto direction = HorizonEye::fromDirection(wgs84(), 0.0, {-1.0, 0.0, 0.0}, {1e7, 0.0, 0.0});
+    ASSERT_TRUE(eye && direction);
+    const CoveredRegion globe(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0}));
+    EXPECT_TRUE(globe.holdsHorizonOf(*eye));
+    EXPECT_FALSE(globe.holdsHorizonOf(*direction));
+    EXPECT_FALSE(CoveredRegion(wgs84(), GeodeticBin()).holdsHorizonOf(*eye));
 }
 
 TEST(CoveredRegion, InAMapHoldsWhatAnEyeOverItSees) {

@@ -17,7 +17,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::EarthColumn;
 using core::EcefMesh;
 using core::Ellipsoid;
 using core::Geodetic;
@@ -77,8 +76,8 @@ std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells
     core::EarthColumns some;
     for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter) {
         plates.columns(cells, cells, quarter, depth, core::Frame(), some);
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            if (some.isKnown(i)) columns.push_back(some[i]);
+        for (std::size_t i = 0; i < some.size; ++i) {
+            if (!std::isnan(some.error[i])) columns.push_back(columnOf(some, i));
         }
     }
     return columns;
@@ -373,10 +372,10 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
         const double depth = 1e-3 * ellipsoid.equatorialRadius();
         core::EarthColumns columns;
         plates.columns(cells, cells, quarter, depth, frame, columns);
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            if (!columns.isKnown(i)) continue;
+        for (std::size_t i = 0; i < columns.size; ++i) {
+            if (std::isnan(columns.error[i])) continue;
             wide += trial % 4 == 0;
-            const EarthColumn column = columns[i];
+            const EarthColumn column = columnOf(columns, i);
             const std::size_t row = quarter / 2 * half + i / here, east = quarter % 2 * half + i % here;
             for (std::size_t corner = 0; corner < 8; ++corner) {
                 const auto at = [&](const Interval& range, std::size_t cell, bool isUpper) {

@@ -27,15 +27,12 @@ namespace osgAnalyticBin::test {
 namespace {
 
 using core::BinHull;
-using core::EarthColumn;
 using core::HorizonBuffer;
 
 constexpr int kRays = 24;
 
 void add(HorizonBuffer& buffer, const EarthColumn& column) {
-    core::EarthColumns columns;
-    columns.append(column);
-    buffer.add(columns);
+    buffer.add(columnsOf(column));
 }
 
 // The points within `reach` metres of a point.

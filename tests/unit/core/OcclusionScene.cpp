@@ -225,6 +225,29 @@ bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, co
     return !scene.isBlocked(real(scene.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up));
 }
 
+EarthColumn columnOf(const core::EarthColumns& columns, std::size_t i) {
+    constexpr std::size_t kMost = core::EarthColumns::kMost;
+    EarthColumn column;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        const double* const x = columns.corners.data() + 3 * corner * kMost + i;
+        (corner < 4 ? column.top[corner] : column.bottom[corner - 4]) = {x[0], x[kMost], x[2 * kMost]};
+    }
+    column.error = columns.error[i];
+    return column;
+}
+
+core::EarthColumns columnsOf(const EarthColumn& column) {
+    constexpr std::size_t kMost = core::EarthColumns::kMost;
+    core::EarthColumns columns;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3& corner = i < 4 ? column.top[i] : column.bottom[i - 4];
+        for (int k = 0; k < 3; ++k) columns.corners[(3 * i + static_cast<std::size_t>(k)) * kMost] = corner[k];
+    }
+    columns.error[0] = column.error;
+    columns.size = 1;
+    return columns;
+}
+
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
              double reach) {
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
@@ -233,13 +256,9 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
-        core::EarthColumns widened;  // for eyes that may be away from their place
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            core::EarthColumn column = columns[i];
-            column.error += reach;
-            widened.append(column);
-        }
-        buffer.add(widened);
+        // for eyes that may be away from their place
+        for (double& error : columns.error) error += reach;
+        buffer.add(columns);
     }
 }
 

@@ -10,11 +10,20 @@
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
+#include <array>
 #include <core/TriangleTree.h>
 #include <support/Random.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
+
+/// One of core::EarthColumns.
+struct EarthColumn {
+    std::array<glm::dvec3, 4> top, bottom;
+    double error = 0.0;
+};
+[[nodiscard]] EarthColumn columnOf(const core::EarthColumns& columns, std::size_t i);
+[[nodiscard]] core::EarthColumns columnsOf(const EarthColumn& column);
 
 /// A tile of the terrain.
 struct GroundTile {

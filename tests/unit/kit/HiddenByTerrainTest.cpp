@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Models behind hills and behind the horizon. Pictures and random scenes: tests/long/scenes. What the core proves:
-// HorizonProfileTest.cpp, HorizonTest.cpp.
+// SortedEarthTest.cpp, HorizonTest.cpp.
 
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"

@@ -34,16 +34,18 @@ public:
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
         if (!viewpoint) return;
         TileSelection selection;
-        const DatabaseView view{nullptr,
-                                earth(),
-                                {},
-                                nullptr,
+        const DatabaseView view{*node->asGroup(),
+                                *nv,
+                                cullStack,
                                 cullStack.getModelViewMatrix(),
                                 cullStack.getProjectionMatrix(),
                                 planesOf(cullStack),
+                                nullptr,
+                                earth(),
+                                {},
                                 &selection,
-                                nullptr};
-        eye = eyeAboveWhatIsShown({*node->asGroup(), {*nv, cullStack, view}, nullptr}, *viewpoint, _deepest, depth);
+                                &selection};
+        eye = eyeAboveWhatIsShown(view, *viewpoint, _deepest, depth);
     }
 
     double depth;

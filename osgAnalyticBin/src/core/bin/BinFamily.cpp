@@ -122,13 +122,4 @@ std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candida
     return kernels::activeKernels.hidden(_data, eye.data(), candidates & _data.filled);
 }
 
-std::uint64_t BinFamily::heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept {
-    const double* const first = _data.numbers + row::kBinRows * _data.stride;
-    std::uint64_t held = 0;
-    forEachBit(candidates & _data.filled, [&](unsigned i) {
-        if (sight.holds(first + i, _data.stride)) held |= kFirst << i;
-    });
-    return held;
-}
-
 }  // namespace osgAnalyticBin::core

@@ -441,18 +441,18 @@ void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t
                            const InverseFrame& frame, EarthColumns& columns) const noexcept {
     const QuarterCells& cells = kQuarters[quarter];
     const std::size_t first = QuarterCells::first(finest);
-    columns._size = 0;
+    columns.size = 0;
     if (!(depth >= 0.0 && depth < shallowest())) return;
     std::array<double, EarthColumns::kMost> high{};
     for (std::size_t grid = finest; grid >= coarsest; grid /= 2) {
         const bool isFit = (_fitting & grid) != 0;
-        for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i, ++columns._size) {
+        for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i, ++columns.size) {
             const std::uint16_t code = _least[cells.number[i]];
             const double altitude = decoded(code);
             const bool isKnown = isFit && code != kUnknown && std::abs(altitude) < shallowest();
-            high[columns._size] = isKnown ? altitude : std::numeric_limits<double>::quiet_NaN();
-            columns._error[columns._size] =
-                32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns._size]) + depth);
+            high[columns.size] = isKnown ? altitude : std::numeric_limits<double>::quiet_NaN();
+            columns.error[columns.size] =
+                32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns.size]) + depth);
         }
     }
     const kernels::CellGround ground{_ellipsoid.isPlane(),
@@ -473,28 +473,8 @@ void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t
                                      {frame.origin.x, frame.origin.y, frame.origin.z}};
     kernels::activeOcclusion.columns(ground,
                                      {cells.south.data() + first, cells.north.data() + first, cells.west.data() + first,
-                                      cells.east.data() + first, high.data(), columns._size},
-                                     columns._corners.data(), EarthColumns::kMost);
-}
-
-EarthColumn EarthColumns::operator[](std::size_t column) const noexcept {
-    EarthColumn result;
-    const auto at = [&](std::size_t corner) {
-        const double* const x = _corners.data() + 3 * corner * kMost + column;
-        return glm::dvec3(x[0], x[kMost], x[2 * kMost]);
-    };
-    for (std::size_t i = 0; i < 4; ++i) result.top[i] = at(i), result.bottom[i] = at(i + 4);
-    result.error = _error[column];
-    return result;
-}
-
-void EarthColumns::append(const EarthColumn& column) noexcept {
-    for (std::size_t i = 0; i < 8; ++i) {
-        const glm::dvec3& corner = i < 4 ? column.top[i] : column.bottom[i - 4];
-        double* const x = _corners.data() + 3 * i * kMost + _size;
-        x[0] = corner.x, x[kMost] = corner.y, x[2 * kMost] = corner.z;
-    }
-    _error[_size++] = column.error;
+                                      cells.east.data() + first, high.data(), columns.size},
+                                     columns.corners.data(), EarthColumns::kMost);
 }
 
 }  // namespace osgAnalyticBin::core

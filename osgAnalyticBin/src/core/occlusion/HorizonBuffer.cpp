@@ -39,7 +39,7 @@ void HorizonBuffer::add(const EarthColumns& columns) {
     static_assert(kMost % kernels::kMostLanes == 0);
     std::array<double, WallRow::kCount * kMost> rows;
     const kernels::Walls walls = kernels::activeOcclusion.walls(
-        _picture, {columns._corners.data(), columns._error.data(), kMost, columns._size}, rows.data());
+        _picture, {columns.corners.data(), columns.error.data(), kMost, columns.size}, rows.data());
     _nearestEarth2 = std::min(_nearestEarth2, walls.nearest2);
     for (std::uint64_t left = walls.bits; left != 0; left &= left - 1) {
         const double* const numbers = rows.data() + firstBit(left);
@@ -176,6 +176,47 @@ bool HorizonBuffer::hides(const Outline& body) {
     const Strips strips = stripsOf(body);
     return kernels::activeOcclusion.covers(_lower.data(), _upper.data(), strips.first, strips.last, body.heights.lower,
                                            body.heights.upper);
+}
+
+void HorizonBuffer::sort() {
+    std::sort(_walls.begin(), _walls.end(),
+              [](const Waiting& a, const Waiting& b) { return a.wall[WallRow::Farthest] < b.wall[WallRow::Farthest]; });
+    _lower.fill(kInfinity);
+    _upper.fill(-kInfinity);
+    _firstSteps.assign(kStrips + 1, 0);
+    std::vector<std::pair<std::size_t, Step>> steps;  // with their strips, by distance
+    for (const auto& [wall, next] : _walls) {
+        const auto [first, last] = stripsOf(wall);
+        const auto lowerBefore = _lower, upperBefore = _upper;
+        kernels::activeOcclusion.raise(_picture, wall.data(), first, last, _lower.data(), _upper.data());
+        for (std::size_t i = first; i < last; ++i) {
+            if (_lower[i] == lowerBefore[i] && _upper[i] == upperBefore[i]) continue;
+            steps.push_back({i, {wall[WallRow::Farthest], {_lower[i], _upper[i]}}});
+            ++_firstSteps[i + 1];
+        }
+    }
+    for (std::size_t i = 0; i < kStrips; ++i) _firstSteps[i + 1] += _firstSteps[i];
+    _steps.resize(steps.size());
+    auto end = _firstSteps;
+    for (const auto& [strip, step] : steps) _steps[end[strip]++] = step;
+}
+
+bool HorizonBuffer::hidesInAnyOrder(const Outline& body) const noexcept {
+    // written so that NaN is not hidden
+    if (body.isBeside || !(body.nearest > _picture.eyes[1]) || !isAboveLowest(body)) return false;
+    const double farthest = farthestBefore(body);
+    const auto [first, last] = stripsOf(body);
+    for (std::size_t i = first; i < last; ++i) {
+        const Step *const begin = _steps.data() + _firstSteps[i], *const end = _steps.data() + _firstSteps[i + 1];
+        // the upper end grows with the distance
+        if (begin == end || !(body.heights.upper <= end[-1].heights.upper)) return false;
+        const Step* const behind = std::upper_bound(
+            begin, end, farthest, [](double distance, const Step& step) { return distance < step.farthest; });
+        if (behind == begin) return false;
+        const Interval& covered = behind[-1].heights;
+        if (!(covered.lower <= body.heights.lower && body.heights.upper <= covered.upper)) return false;
+    }
+    return first < last;
 }
 
 }  // namespace osgAnalyticBin::core

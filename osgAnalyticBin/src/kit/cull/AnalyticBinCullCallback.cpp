@@ -5,10 +5,12 @@
 #include "../Inverse.h"
 #include "../PerThread.h"
 #include "../Spheres.h"
+#include "../tile/InstalledDatabase.h"
 #include "../tile/InstalledTile.h"
-#include "BinCulling.h"
+#include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
+#include "Viewpoint.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileFrame.h>
@@ -36,6 +38,16 @@ core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecef
         planes.push_back(toCore(plane));
     }
     return planes;
+}
+
+// Whether the database that is traversed is shown in the shape that a bin was fitted to. If it is not, requests a fit
+// to the present shape. Returns: false without a database.
+bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal) {
+    const DatabaseView* const view = traversal.databaseView();
+    if (!view) return false;
+    const bool isShown = view->shape == fitted;
+    if (!isShown) view->database->requestRefit();
+    return isShown;
 }
 
 }  // namespace
@@ -268,7 +280,7 @@ bool AnalyticBinCullCallback::isSurelyInside(osg::CullStack& cullStack) const {
 
 const core::HorizonEye* AnalyticBinCullCallback::horizonEye(osg::NodeVisitor& visitor) {
     const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
-    return view && (!view->sight || view->sight->holdsAll()) ? view->eye : nullptr;
+    return view ? view->eye : nullptr;
 }
 
 InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {
@@ -290,22 +302,28 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     if (!_isTested || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
     if (_setup->shape && !isShownIn(*_setup->shape, traversal)) return false;
-    const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
+    BinReason reason = nullptr;
+    const auto classify = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = core::classify(prepared().bin, planes, undecided);
-        if (side == core::Side::Outside) return Verdict{side, Verdict::Plane};
+        if (side == core::Side::Outside) return side;
         // what else is known of the view takes time to find
-        if (prepared().horizon || (isInMap() && _setup->options.occlusion != OcclusionUse::Off)) {
-            if (const auto hidden = hiddenVerdict(node, nv, cullStack, traversal)) return *hidden;
-        }
+        if (prepared().horizon || (isInMap() && _setup->options.occlusion != OcclusionUse::Off))
+            reason = hiddenBy(node, nv, cullStack, traversal);
         const bool isBeyond =
-            side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided);
-        return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
+            !reason && side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided);
+        if (isBeyond) reason = &BinCounts::beyondEdge;
+        return reason ? core::Side::Outside : side;
     };
-    return isCulledByBin(node, cullStack, nv, traversal, prepared().sphere,
-                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             return _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
-                                           : test(traversal.planes(cullStack), undecided);
-                         });
+    core::Side side = core::Side::Straddling;
+    const auto test = [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+        return side = _frame ? classify(ecefPlanes(frustum, _frame->fromEcef), undecided)
+                             : classify(traversal.planes(cullStack), undecided);
+    };
+    const bool culled =
+        isOutside(cullStack, test) || isSmallTile(cullStack.getCurrentCullingSet(), prepared().sphere, node);
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
+        traversal.statistics().count(culled ? core::Side::Outside : side, nv.getTraversalNumber(), reason);
+    return culled;
 }
 
 // Whether it obeys depth, with all that is below it, and by the states down to it, from the database if there is one.
@@ -316,17 +334,19 @@ bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisito
            drawnStateAbove(nv, rules, view ? view->states : nullptr).obeysDepth;
 }
 
-// By what the tile is hidden; nullopt: by nothing. The states are asked last: that takes longest.
-std::optional<Verdict> AnalyticBinCullCallback::hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,
-                                                              osg::CullStack& cullStack,
-                                                              CullTraversal& traversal) const {
+// By what the tile is hidden; null: by nothing. The states are asked last: that takes longest.
+BinReason AnalyticBinCullCallback::hiddenBy(const osg::Node& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                                            CullTraversal& traversal) const {
     const DatabaseView* const view = viewOn(cullStack, traversal);
-    const bool isOccluded = view && view->selection->isOccluded(*this);
-    const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-    const bool isBeyondHorizon = !isOccluded && eye && prepared().horizon && eye->hides(*prepared().horizon) &&
-                                 (!view || !view->sight || view->sight->holds(*prepared().horizon));
-    if (!(isOccluded || isBeyondHorizon) || !mayBeHidden(node, nv, view)) return std::nullopt;
-    return Verdict{core::Side::Outside, isOccluded ? Verdict::Terrain : Verdict::Horizon};
+    const bool isOccluded = view && view->hidden->isOccluded(*this);
+    const auto isBeyondHorizon = [&] {
+        if (!prepared().horizon) return false;
+        if (view) return view->eye && view->eye->hides(*prepared().horizon);
+        const auto eye = eyeWithoutDatabase(cullStack, nv, traversal);
+        return eye && eye->hides(*prepared().horizon);
+    };
+    if (!(isOccluded || isBeyondHorizon()) || !mayBeHidden(node, nv, view)) return nullptr;
+    return isOccluded ? &BinCounts::occluded : &BinCounts::hidden;
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
@@ -347,13 +367,13 @@ const DatabaseView* AnalyticBinCullCallback::viewOn(osg::CullStack& cullStack, C
     return isSame ? database : nullptr;
 }
 
-const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
-                                                                    CullTraversal& traversal) const {
-    if (_installed || traversal.databaseView()) return nullptr;
-    // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_setup->options.horizonUse != HorizonUse::Given || _frame || isInMap()) return nullptr;
-    const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
-    return traversal.horizonEye(cullStack, nv, occluder);
+std::optional<core::HorizonEye> AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullStack& cullStack,
+                                                                            osg::NodeVisitor& nv,
+                                                                            const CullTraversal& traversal) const {
+    if (_installed || traversal.databaseView()) return std::nullopt;
+    if (_setup->options.horizonUse != HorizonUse::Given || _frame || isInMap()) return std::nullopt;
+    const auto viewpoint = Viewpoint::of(cullStack, nv, _setup->options.inheritViewpoint);
+    return viewpoint ? viewpoint->above(ellipsoid(), std::max(0.0, -_setup->options.horizon)) : std::nullopt;
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const {

@@ -13,11 +13,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// One writer: a plain load and store is enough, and costs no locked instruction.
-template <class Counter>
-void increment(Counter& counter, std::uint32_t by = 1) {
-    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
-}
+constexpr std::array kCounted{&BinCounts::outside, &BinCounts::inside,     &BinCounts::straddling,
+                              &BinCounts::hidden,  &BinCounts::beyondEdge, &BinCounts::occluded};
 
 }  // namespace
 
@@ -54,41 +51,20 @@ void BinStatistics::beginFrame(unsigned int frame) noexcept {
     _frame.store(frame, std::memory_order_relaxed);
 }
 
+// One writer: a plain load and store is enough, and costs no locked instruction.
 void BinStatistics::add(const BinCounts& counts) noexcept {
     beginFrame(counts.frame);
-    increment(_outside, counts.outside);
-    increment(_inside, counts.inside);
-    increment(_straddling, counts.straddling);
-    increment(_hidden, counts.hidden);
-    increment(_beyondEdge, counts.beyondEdge);
-    increment(_occluded, counts.occluded);
+    for (std::size_t i = 0; i < kCounted.size(); ++i)
+        _counters[i].store(_counters[i].load(std::memory_order_relaxed) + counts.*kCounted[i],
+                           std::memory_order_relaxed);
 }
 
-void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
-    beginFrame(frame);
-    switch (side) {
-        case core::Side::Outside:
-            increment(_outside);
-            break;
-        case core::Side::Inside:
-            increment(_inside);
-            break;
-        case core::Side::Straddling:
-            increment(_straddling);
-            break;
-    }
-}
-
-void BinStatistics::countHidden() noexcept {
-    increment(_hidden);
-}
-
-void BinStatistics::countBeyondEdge() noexcept {
-    increment(_beyondEdge);
-}
-
-void BinStatistics::countOccluded() noexcept {
-    increment(_occluded);
+void BinStatistics::count(core::Side side, unsigned int frame, BinReason reason) noexcept {
+    BinCounts counts;
+    ++(side == core::Side::Outside ? counts.outside : side == core::Side::Inside ? counts.inside : counts.straddling);
+    if (reason) ++(counts.*reason);
+    counts.frame = frame;
+    add(counts);
 }
 
 void BinStatistics::setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept {
@@ -102,24 +78,15 @@ void BinStatistics::setNotCovered(const char* condition, unsigned int frame) noe
 }
 
 void BinStatistics::reset() noexcept {
-    _occluded.store(0, std::memory_order_relaxed);
-    _hidden.store(0, std::memory_order_relaxed);
-    _beyondEdge.store(0, std::memory_order_relaxed);
-    _outside.store(0, std::memory_order_relaxed);
-    _inside.store(0, std::memory_order_relaxed);
-    _straddling.store(0, std::memory_order_relaxed);
+    for (auto& counter : _counters) counter.store(0, std::memory_order_relaxed);
     _covered = nullptr;
     _notCovered = nullptr;
 }
 
 BinCounts BinStatistics::getCounts() const noexcept {
     BinCounts counts;
-    counts.outside = _outside.load(std::memory_order_relaxed);
-    counts.inside = _inside.load(std::memory_order_relaxed);
-    counts.straddling = _straddling.load(std::memory_order_relaxed);
-    counts.hidden = _hidden.load(std::memory_order_relaxed);
-    counts.beyondEdge = _beyondEdge.load(std::memory_order_relaxed);
-    counts.occluded = _occluded.load(std::memory_order_relaxed);
+    for (std::size_t i = 0; i < kCounted.size(); ++i)
+        counts.*kCounted[i] = _counters[i].load(std::memory_order_relaxed);
     counts.tested = counts.outside + counts.inside + counts.straddling;
     counts.frame = _frame.load(std::memory_order_relaxed);
     return counts;

@@ -8,7 +8,6 @@
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "CullCallbacks.h"
-#include "DrawnDepth.h"
 #include "DrawnState.h"
 #include "FamilyTile.h"
 

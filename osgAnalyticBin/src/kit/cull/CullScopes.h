@@ -6,14 +6,17 @@
 #pragma once
 
 #include "../Classes.h"
+#include "../SmallFeature.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
+#include <osg/BoundingSphere>
 #include <osg/Callback>
 #include <osg/ClusterCullingCallback>
 #include <osg/CullSettings>
 #include <osg/CullStack>
 #include <osg/CullingSet>
+#include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
 
@@ -65,6 +68,50 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.getCurrentMask() = planes;
     frustum.setResultMask(planes);
 }
+
+/// OSG's whole test of a sphere against the undecided planes of the current culling set. Those that have it inside are
+/// cleared.
+[[nodiscard]] inline bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask& undecided,
+                                         const osg::BoundingSphere& sphere) {
+    osg::Polytope& frustum = cullingSet.getFrustum();
+    const core::PlaneMask before = frustum.getCurrentMask();
+    setUndecided(frustum, undecided);
+    const bool isCulled = cullingSet.isCulled(sphere);
+    undecided = frustum.getResultMask();
+    setUndecided(frustum, before);
+    return isCulled;
+}
+
+/// Whether a tile is a small feature, by the sphere about its bin and by OSG's own, which may be larger.
+[[nodiscard]] inline bool isSmallTile(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere,
+                                      const osg::Node& tile) {
+    return isSmall(cullingSet, sphere) && (!tile.getBound().valid() || isSmall(cullingSet, tile.getBound()));
+}
+
+/// While it exists, OSG tests below the present node only what is in `mask`, too.
+class CullingMaskScope {
+public:
+    CullingMaskScope(osg::CullStack& cullStack, osg::CullingSet::Mask mask)
+        : _cullStack(cullStack),
+          _current(cullStack.getCurrentCullingSet().getCullingMask()),
+          _projection(cullStack.getProjectionCullingStack().back().getCullingMask()) {
+        set(_current & mask, _projection & mask);
+    }
+    // the stacks may have moved meanwhile
+    ~CullingMaskScope() { set(_current, _projection); }
+    CullingMaskScope(const CullingMaskScope&) = delete;
+    CullingMaskScope& operator=(const CullingMaskScope&) = delete;
+
+private:
+    // culling sets of transforms below are made from that of the projection
+    void set(osg::CullingSet::Mask current, osg::CullingSet::Mask projection) {
+        _cullStack.getCurrentCullingSet().setCullingMask(current);
+        _cullStack.getProjectionCullingStack().back().setCullingMask(projection);
+    }
+
+    osg::CullStack& _cullStack;
+    const osg::CullingSet::Mask _current, _projection;
+};
 
 /// While it exists, OSG tests only the undecided planes below transforms, too. By itself OSG begins with all
 /// planes below each transform and moves them to its frame. `undecided` numbers the planes of the current culling set.

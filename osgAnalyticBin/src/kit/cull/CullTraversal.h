@@ -3,59 +3,77 @@
 
 #pragma once
 
+#include "../Scoped.h"
+#include "../tile/TerrainHider.h"
 #include "DrawnState.h"
-#include "SightOverRegion.h"
+#include "HidingView.h"
 #include "TileSelection.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
+#include <glm/vec3.hpp>
 #include <osg/CullStack>
 #include <osg/CullingSet>
 #include <osg/Group>
+#include <osg/Node>
 #include <osg/NodeVisitor>
-#include <osg/Polytope>
 #include <osg/Referenced>
+#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
 #include <array>
 #include <cstddef>
 #include <deque>
-#include <optional>
+#include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
-/// Where an occluder lies: the ellipsoid, its depth below it, and whether cameras that inherit a view point
-/// or draw depth alone (shadow passes) use it.
-struct Occluder {
-    core::Ellipsoid ellipsoid;
-    double depth;
-    bool forInheritedViewpoints;
-};
-
+class AnalyticBinCullCallback;
 class InstalledDatabase;
 
 /// What a database provides to its tiles during its traversal.
 struct DatabaseView {
-    /// Draws what is kept below the group of a family to which OSG's traversal has come.
-    using DrawFamily = void (*)(osg::Group& group, const TileFamily& family, osg::NodeVisitor& visitor,
-                                osg::CullStack& cullStack, const DatabaseView& view);
-
-    const InstalledDatabase* database;
-    core::Ellipsoid ellipsoid;
-    TerrainShape shape;
-    const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden
-    // Of the traversal where the view was made: what is the same below has the same planes.
+    osg::Group& root;
+    // Of the traversal where the view was made: what has the same matrices below has the same planes.
+    osg::NodeVisitor& visitor;
+    osg::CullStack& cullStack;
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
-    TileSelection* selection;
-    DrawFamily drawFamily;                        // see SelectionDrawing
+    const InstalledDatabase* database;
+    core::Ellipsoid ellipsoid;
+    TerrainShape shape;
+    TileSelection* selection;                     // of what is drawn
+    TileSelection* hidden;                        // knows which tiles terrain hides
     StateRules rules{};                           // what the database's states are judged by
-    const SightOverRegion* sight = nullptr;       // of an eye over a region
     const osgUtil::StateGraph* states = nullptr;  // down to the database's root
+    const core::CoveredRegion* region = nullptr;  // that is covered; null: the globe
+    bool expectsHole = false;                     // as in the last view
+    const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
+};
+
+/// The triangle of the shown terrain that an eye was last above: it usually stays above it for some frames.
+class GroundBelow {
+public:
+    /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal
+    /// meets no triangle, and for terrain tiles that have no mesh yet or whose technique may draw it elsewhere.
+    /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
+    /// triangle of a mesh that has not changed since bins were installed.
+    [[nodiscard]] bool isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
+                               const core::Ellipsoid& ellipsoid);
+
+private:
+    [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
+
+    osg::observer_ptr<const osg::Node> _mesh;
+    osg::observer_ptr<const AnalyticBinCullCallback> _tile;
+    int _uses = 0;
+    std::array<glm::dvec3, 3> _triangle{};  // ECEF
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
@@ -74,24 +92,16 @@ public:
     class DatabaseScope {
     public:
         DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView* view);
-        ~DatabaseScope();
-        DatabaseScope(const DatabaseScope&) = delete;
-        DatabaseScope& operator=(const DatabaseScope&) = delete;
 
     private:
-        CullTraversal& _traversal;
-        const DatabaseView* const _outerView;
-        const bool _wasLeftToOsg;
-        const osg::NodeVisitor* const _outerVisitor;
-        CullTraversal* const _outerTraversal;
+        const Scoped<const DatabaseView*> _view;
+        const Scoped<bool> _leftToOsg;
+        const Scoped<std::size_t> _openSelections;
+        const Scoped<std::pair<const osg::NodeVisitor*, CullTraversal*>> _ofThread;
     };
 
     /// All planes of the cull stack's current frustum, because OSG's masks may refer to any of them.
     [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
-
-    /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
-    [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
-                                                     const Occluder& occluder);
 
     /// What the traversed database provides; nullptr: there is none.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
@@ -111,18 +121,25 @@ public:
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
     [[nodiscard]] osg::CullingSet::Mask maskBelowKept() const { return _maskBelowKept; }
 
-    /// What searches of this visitor keep from view to view: see SearchMemory. Null: nothing yet.
-    [[nodiscard]] osg::ref_ptr<osg::Referenced>& searchMemory() { return _searchMemory; }
+    /// @{
+    /// What searches of this visitor keep from view to view.
+    /// Results about a database.
+    struct LastView {
+        double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
+        unsigned int holes = 0;            ///< views since a search last did not come to nothing
+        unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
+        unsigned int resting = 0;          ///< how many of them are left
+        osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
+    };
+    [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
+    GroundBelow ground;  ///< last found below the eye
+    HidingView hiding;   ///< for nodes that are no tiles
+    /// @}
 
 protected:
     ~CullTraversal() override;
 
 private:
-    static constexpr std::size_t kCachedPlanes = 6;
-    using Coefficients = std::array<double, 4 * kCachedPlanes>;
-
-    [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
-
     BinStatistics& _statistics;  // they own this state
     const DatabaseView* _databaseView = nullptr;
     bool _isLeftToOsg = false;
@@ -130,19 +147,8 @@ private:
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TileSelection> _selections;  // of databases within each other
     std::size_t _openSelections = 0;
-    osg::ref_ptr<osg::Referenced> _searchMemory;
-
+    std::vector<std::pair<const InstalledDatabase*, LastView>> _lastViews;
     core::PlaneSet _planes;
-    Coefficients _coefficients{};
-    std::size_t _planeCount = 0;
-
-    // The eye, and what it was prepared for.
-    std::optional<core::HorizonEye> _eye;
-    osg::ref_ptr<const osg::RefMatrix> _modelView, _projection;  // held, so that OSG puts no others in their place
-    std::array<double, 3> _eyeSpaceDepth{};
-    unsigned int _eyeFrame = 0;
-    double _eyeDepth = 0.0;
-    std::optional<core::Ellipsoid> _eyeEllipsoid;  // none: not prepared yet
 };
 
 }  // namespace osgAnalyticBin

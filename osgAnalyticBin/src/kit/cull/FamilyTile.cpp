@@ -6,9 +6,7 @@
 #include "../Classes.h"
 #include "../Spheres.h"
 #include "../tile/Carrier.h"
-#include "BinCulling.h"
 #include "CullScopes.h"
-#include "DrawnDepth.h"
 #include "DrawnState.h"
 
 #include <osg/Geode>

@@ -3,24 +3,34 @@
 
 #pragma once
 
-#include "Footprint.h"
 #include "Prefetch.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/Plane.h>
 
+#include <osg/BoundingBox>
 #include <osg/Drawable>
+#include <osg/Matrixd>
 #include <osg/Node>
 #include <osg/PagedLOD>
 #include <osg/ref_ptr>
 #include <osgUtil/CullVisitor>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <optional>
 
 namespace osgAnalyticBin {
+
+/// The distance from the plane of the eye to the farthest corner of a box, as osgUtil::CullVisitor computes its far
+/// plane. `toEye`: from the box's frame to eye space. Requires: a valid box.
+[[nodiscard]] inline double farthestDepth(const osg::BoundingBox& box, const osg::Matrixd& toEye) {
+    double depth = -toEye(3, 2);
+    for (int i = 0; i < 3; ++i) depth += std::max(-toEye(i, 2) * box._min[i], -toEye(i, 2) * box._max[i]);
+    return depth;
+}
 
 /// A tile of a family at the time when the family was made, as far as cull traversals need it besides its bin. It draws
 /// the tile's own mesh like osgUtil::CullVisitor, in less time: it adds the drawables without creating a culling set
@@ -45,16 +55,12 @@ public:
     /// Whether a traversal may pass by the tile's own callback and OSG's test of its sphere. It requires, besides: a
     /// visitor of exactly the class osgUtil::CullVisitor, and a tile with the bin's callback in front.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
-    /// Whether the tile is its own mesh: it has no levels.
-    [[nodiscard]] bool isOwnMesh() const { return _isOwnMesh; }
 
     static constexpr std::size_t kMostParts = 4;
     /// A node of the own mesh, parents before children: part(0) is the mesh. OSG draws the whole mesh as long as it
     /// enters each of them. Returns: nullptr behind the last one; of all, where the mesh is not known.
     [[nodiscard]] osg::Node* part(std::size_t i) const { return i < kMostParts ? _parts[i].node.get() : nullptr; }
     [[nodiscard]] bool isMesh(const osg::Node& node) const { return &node == part(0); }
-    /// Whether part(i) is a tile of osgTerrain.
-    [[nodiscard]] bool isTerrain(std::size_t i) const { return _parts[i].kind == Kind::Terrain; }
 
     /// Whether meshes can be drawn in this traversal.
     [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);
@@ -71,8 +77,6 @@ public:
     /// everything below them, and have neither states nor callbacks. False also for tiles of osgTerrain.
     [[nodiscard]] bool isBareMesh(const osg::NodeVisitor& visitor) const;
 
-    /// The memory that was read when the walk last went through the tile to a finer level.
-    [[nodiscard]] const Footprint& wayThrough() const { return _wayThrough; }
     /// Prefetches what drawing the mesh reads.
     void prefetchMesh() const {
         constexpr unsigned int kLines = 4;
@@ -116,7 +120,6 @@ private:
     bool _isDrawn = false;  // here, not by OSG
     std::array<Part, kMostParts> _parts;
     BoundedMesh _bounded;
-    Footprint _wayThrough;
 };
 
 }  // namespace osgAnalyticBin

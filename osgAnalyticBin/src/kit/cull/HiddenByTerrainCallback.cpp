@@ -4,8 +4,8 @@
 #include "../Classes.h"
 #include "../tile/BoundWatch.h"
 #include "CullCallbacks.h"
+#include "CullTraversal.h"
 #include "DrawnState.h"
-#include "SearchMemory.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
@@ -76,7 +76,7 @@ osg::BoundingSphere sphereBelow(const osg::Node& node) {
 }
 
 bool isHidden(const osg::Node& node, osgUtil::CullVisitor& visitor) {
-    HidingView& hiding = SearchMemory::of(visitor).hiding;
+    HidingView& hiding = CullTraversal::of(visitor).hiding;
     if (!hiding.hides(visitor, sphereBelow(node), *visitor.getModelViewMatrix())) return false;
     const StateRules rules{false, false, visitor.getViewport()};
     const DrawnState above = hiding.stateAbove(visitor, rules);

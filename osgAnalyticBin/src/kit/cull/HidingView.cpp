@@ -9,8 +9,6 @@
 #include "../Spheres.h"
 #include "Viewpoint.h"
 
-#include <osgAnalyticBin/core/horizon/RegionalSight.h>
-
 #include <osgUtil/RenderStage>
 
 #include <algorithm>
@@ -82,7 +80,6 @@ void HidingView::set(osgUtil::CullVisitor& visitor, const Known& known) {
     _isStepRelative = !isFinalProjection(visitor);
     _depthStep =
         kDepthStep / (_isStepRelative ? visitor.getNearFarRatio() : depthScaleOf(*visitor.getProjectionMatrix()));
-    _isOverRegion.reset();
     _above = nullptr;
     _known = known;
 }
@@ -126,22 +123,12 @@ bool HidingView::hides(osgUtil::CullVisitor& visitor, const osg::BoundingSphere&
     return isHidden;
 }
 
-bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double distance) {
+bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double distance) const {
     if (!_known->eye) return false;
     const double share = _known->eye->shareBefore(_known->ellipsoid, centre, radius);
     // 1 / z of what is drawn less that of the sphere
     const double step = _isStepRelative ? _depthStep : _depthStep * share * (distance + radius) / _scale;
-    return 1.0 - share > step && staysOverRegion();
-}
-
-// Whether all lines of sight stay over the region.
-bool HidingView::staysOverRegion() {
-    if (!_known->region) return true;
-    if (!_isOverRegion) {
-        const auto sight = core::RegionalSight::from(*_known->eye, *_known->region, _known->planes);
-        _isOverRegion = sight && sight->holdsAll();
-    }
-    return *_isOverRegion;
+    return 1.0 - share > step;
 }
 
 DrawnState HidingView::stateAbove(osgUtil::CullVisitor& visitor, const StateRules& rules) {

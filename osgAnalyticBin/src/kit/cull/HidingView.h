@@ -8,8 +8,6 @@
 #include "TileSelection.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/BoundingSphere>
@@ -31,11 +29,9 @@ public:
     /// What is known of a view of a database.
     struct Known {
         core::Ellipsoid ellipsoid;
-        std::optional<core::HorizonEye> eye;        ///< where the horizon hides
-        std::optional<core::CoveredRegion> region;  ///< that the eye is over; none: the globe
-        core::PlaneSet planes;                      ///< the frustum
-        osg::ref_ptr<TerrainHider> hider;           ///< after find(); null: terrain hides nothing
-        bool isCutOpen = false;                     ///< the near plane may cut terrain
+        std::optional<core::HorizonEye> eye;  ///< where the horizon hides
+        osg::ref_ptr<TerrainHider> hider;     ///< after find(); null: terrain hides nothing
+        bool isCutOpen = false;               ///< the near plane may cut terrain
     };
 
     /// Requires: the visitor is at the database's root.
@@ -71,8 +67,7 @@ private:
     };
 
     [[nodiscard]] bool findFrame();
-    [[nodiscard]] bool isBehindHorizon(const glm::dvec3& centre, double radius, double distance);
-    [[nodiscard]] bool staysOverRegion();
+    [[nodiscard]] bool isBehindHorizon(const glm::dvec3& centre, double radius, double distance) const;
 
     std::optional<Known> _known;
     Picture _picture;
@@ -82,8 +77,7 @@ private:
     double _drawing = 0.0;                   // of a pixel, in radians
     double _depthStep = 0.0;  // of the reciprocal of a depth in eye space; times that depth where OSG computes it
     bool _isStepRelative = false;
-    std::optional<bool> _isOverRegion;  // every line of sight
-    unsigned int _askedIn = 0;          // frame
+    unsigned int _askedIn = 0;  // frame
     unsigned int _asked = 0, _hidden = 0;
 
     const osgUtil::StateGraph* _above = nullptr;

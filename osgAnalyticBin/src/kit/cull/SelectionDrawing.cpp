@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
-#include "SelectionDrawing.h"
+//
+// Draws what was selected.
 
 #include "../Classes.h"
-#include "BinCulling.h"
+#include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
 #include "SelectionWalk.h"
@@ -56,41 +56,49 @@ private:
     // Numbers of places grow from the outside inward.
     template <class Above, class Push, class Pop>
     void change(std::vector<Number>& entered, Number wanted, const Above& above, const Push& push, const Pop& pop) {
-        _missing.clear();
-        Number at = wanted;
-        while (true) {
-            const Number last = entered.empty() ? kNone : entered.back();
-            if (at == last) break;
-            if (last == kNone || (at != kNone && at > last)) {
-                _missing.push_back(at);
-                at = above(at);
-            } else {
-                entered.pop_back();
-                pop();
-            }
+        while (!entered.empty() && (wanted == kNone || wanted < entered.back())) {
+            entered.pop_back();
+            pop();
         }
-        for (auto next = _missing.rbegin(); next != _missing.rend(); ++next) {
-            entered.push_back(*next);
-            push(*next);
-        }
+        if (wanted == (entered.empty() ? kNone : entered.back())) return;
+        change(entered, above(wanted), above, push, pop);
+        entered.push_back(wanted);
+        push(wanted);
     }
 
     const TileSelection& _selection;
     osg::NodeVisitor& _visitor;
     osgUtil::CullVisitor* const _cullVisitor;
-    std::vector<Number> _states, _path, _missing;
+    std::vector<Number> _states, _path;
 };
+
+// Enters a node as osgUtil::CullVisitor does it, without its test of the sphere: for nodes that were tested together
+// with their siblings. `callback`: what is nested in that of a bin; null: none. Requires: a visitor of this very type,
+// and a node that it enters by apply(osg::LOD&) or apply(osg::Group&).
+void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor, osg::Callback* callback) {
+    if (!visitor.validNodeMask(node)) return;
+    osg::StateSet* const state = node.getStateSet();
+    visitor.pushOntoNodePath(&node);
+    if (state) visitor.pushStateSet(state);
+    if (callback) {
+        callback->run(&node, &visitor);
+    } else {
+        node.traverse(visitor);
+    }
+    if (state) visitor.popStateSet();
+    visitor.popFromNodePath();
+}
 
 class SelectionDrawing {
     using Number = TileSelection::Number;
     using Way = TileSelection::Way;
 
 public:
-    SelectionDrawing(const DatabaseView& view, osg::NodeVisitor& visitor, osg::CullStack& cullStack)
+    explicit SelectionDrawing(const DatabaseView& view)
         : _selection(*view.selection),
-          _visitor(visitor),
-          _cullVisitor(isExactly<osgUtil::CullVisitor>(visitor) ? visitor.asCullVisitor() : nullptr),
-          _cullStack(cullStack),
+          _visitor(view.visitor),
+          _cullVisitor(isExactly<osgUtil::CullVisitor>(_visitor) ? _visitor.asCullVisitor() : nullptr),
+          _cullStack(view.cullStack),
           _canDraw(_cullVisitor && FamilyTile::canDraw(*_cullVisitor)) {}
 
     void draw(Number number) {
@@ -196,19 +204,25 @@ private:
 
 }  // namespace
 
-void drawFamily(osg::Group& group, const TileFamily& family, osg::NodeVisitor& visitor, osg::CullStack& cullStack,
-                const DatabaseView& view) {
+void TileFamily::draw(osg::Group& group, const DatabaseView& view) const {
     TileSelection& selection = *view.selection;
-    const core::PlaneMask undecided = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
-    const bool areSame = selection.conditions() == TileSelection::Conditions::of(visitor, cullStack);
-    const TileSelection::Number found = areSame ? selection.find(family, undecided) : TileSelection::kNone;
+    const core::PlaneMask undecided = view.cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
+    const bool areSame = selection.conditions() == TileSelection::Conditions::of(view.visitor, view.cullStack);
+    const TileSelection::Number found = areSame ? selection.find(*this, undecided) : TileSelection::kNone;
     const bool mayHide = (found == TileSelection::kNone ? view.eye != nullptr : selection.segment(found).hides) &&
-                         drawnStateAbove(visitor, view.rules, view.states).obeysDepth;
-    SelectionDrawing drawing(view, visitor, cullStack);
-    if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides)) return drawing.draw(found);
-    const TileSelection::Inner inner(selection);
-    SelectionWalk walk({visitor, cullStack, view}, mayHide ? view.eye : nullptr, mayHide ? view.sight : nullptr);
-    drawing.draw(walk.selectBelow(group, family));
+                         drawnStateAbove(view.visitor, view.rules, view.states).obeysDepth;
+    if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides))
+        return SelectionDrawing(view).draw(found);
+    CullTraversal& traversal = CullTraversal::of(view.visitor);
+    DatabaseView own = view;
+    own.selection = &traversal.selection();
+    own.selection->begin(TileSelection::Conditions::of(view.visitor, view.cullStack));
+    {
+        const CullTraversal::DatabaseScope scope(view.visitor, traversal, &own);
+        SelectionWalk walk(own, mayHide ? own.eye : nullptr, nullptr);
+        SelectionDrawing(own).draw(walk.selectBelow(group, *this));
+    }
+    own.selection->clear();
 }
 
 }  // namespace osgAnalyticBin

@@ -4,6 +4,7 @@
 // The evidence of a walk: whether all that hides is drawn.
 
 #include "../../core/Bits.h"
+#include "../../core/EarthScale.h"
 #include "../Classes.h"
 #include "../Inverse.h"
 #include "../PagedChildren.h"
@@ -11,9 +12,8 @@
 #include "../Spheres.h"
 #include "../tile/BoundWatch.h"
 #include "../tile/InstalledTile.h"
-#include "BinCulling.h"
 #include "CullCallbacks.h"
-#include "GroundBelow.h"
+#include "CullScopes.h"
 #include "SelectionWalk.h"
 
 #include <osg/CoordinateSystemNode>
@@ -22,6 +22,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <typeinfo>
 
@@ -56,7 +57,7 @@ bool isDrawnByTechnique(const osg::Node& node) {
 
 // Of a node by its state alone. It matters for evidence, and where something may be hidden.
 DrawnState SelectionWalk::stateOf(const osg::Node& node) const {
-    return _searches || _hiding.eye ? drawnStateOf(node, _selected.view.rules) : DrawnState();
+    return _searches || _hiding.eye ? drawnStateOf(node, _view.rules) : DrawnState();
 }
 
 // For evidence, below what OSG enters by itself. The families there begin segments.
@@ -92,7 +93,7 @@ void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCu
     if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
     numbers.altitude = {bin.getBinLow(), bin.getBinHigh()};
     numbers.surface = {bin.getSurfaceLow(), bin.getSurfaceHigh()};
-    const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _selected.view.shape;
+    const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _view.shape;
     const Tile tile{bin, numbers, isFitted, nullptr, true, isAbout(bin)};
     const bool isHidden = _hiding.eye && bin.isColumnHiddenFrom(*_hiding.eye);
     if (!tile.isAboutEye && (isBeside(tile) || isHidden)) return;
@@ -150,27 +151,28 @@ core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
 }
 
 void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
-    if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper) _nearGround.push_back({&tile.callback, &mesh});
+    if (tile.isAboutEye && _search.place->altitude <= surfaceOf(tile).upper)
+        _nearGround.push_back({&tile.callback, &mesh});
     // tiles about the eye are searched even beside the frustum, for the ground alone
     if (tile.isAboutEye && isBeside(tile)) return;
     const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
     // the application's own tiles are not counted in what covers the globe
     if (installed && installed->has(InstalledTile::NotFilled)) doubt();
     if (isLeftOutInView(tile, mesh)) doubt();
-    if (_isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
+    if (_search.isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
     const bool isSure = !_isChoiceUnknown && tile.isFitted;
     const bool isAll = isOnlyLevel && !(installed && installed->has(InstalledTile::MoreThanMesh));
     _selection.addShown({&tile.callback, &mesh, tile.member, isSure, isAll, tile.isOutOfView, tile.kept, _segment});
     // what a tile draws by itself is in its bin
     if (tile.isFitted && tile.numbers.altitude.lower >= -_depth) return;
     const double own = tile.isFitted ? -surfaceOf(tile).lower : std::numeric_limits<double>::infinity();
-    _depth = std::max(_depth, std::min(own, _deepest));
+    _depth = std::max(_depth, std::min(own, _search.deepest));
 }
 
 bool SelectionWalk::areMeshesDrawn() const {
     constexpr std::size_t kAhead = 8;
     const std::vector<ShownTile>& shown = _selection.shown();
-    for (std::size_t i = 0; i < shown.size() && !_isEager; ++i) {
+    for (std::size_t i = 0; i < shown.size() && !_search.isEager; ++i) {
         const FamilyTile* const next = i + kAhead < shown.size() ? shown[i + kAhead].member : nullptr;
         if (next) next->prefetchMesh();
         if (!isDrawnWhole(*shown[i].mesh, *shown[i].tile, shown[i].member)) return false;
@@ -189,18 +191,12 @@ bool SelectionWalk::isLeftOut(const osg::Node& node) const {
     const core::PlaneMask planes = _toEcef ? ~core::PlaneMask{0} : _undecided;
     if (planes == 0 || !node.isCullingActive()) return false;
     const osg::BoundingSphere sphere = sphereOf(node);
-    if (!sphere.valid()) return false;
-    const osg::Vec3d center(sphere.center());
-    for (std::uint64_t left = planes & lowestBits(static_cast<unsigned int>(_planes.size())); left != 0;
-         left &= left - 1) {
-        if (_planes[firstBit(left)].distance(center) < -static_cast<double>(sphere.radius())) return true;
-    }
-    return false;
+    return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius(), planes);
 }
 
 bool SelectionWalk::isSmallFeature(const osg::Node& node) const {
     return _testsSmallFeatures && node.isCullingActive() &&
-           isSmall(_selected.cullStack.getCurrentCullingSet(), sphereOf(node));
+           isSmall(_view.cullStack.getCurrentCullingSet(), sphereOf(node));
 }
 
 // From the frame of what a node draws.
@@ -215,12 +211,12 @@ osg::Matrixd SelectionWalk::frameInside(const osg::Node& node) const {
 bool SelectionWalk::standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const {
     if (!_toEcef && !node.asTransform()) return tile.getLocalToEcef().isIdentity();
     const osg::Matrixd toEcef = frameInside(node);
-    const double reach = _selected.view.ellipsoid.equatorialRadius() + toEcef.getTrans().length();
+    const double reach = _view.ellipsoid.equatorialRadius() + toEcef.getTrans().length();
     return areNearlyEqual(toEcef, tile.getLocalToEcef(), reach);
 }
 
 bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
-    const StateRules& rules = _selected.view.rules;
+    const StateRules& rules = _view.rules;
     // other classes, and their parts, were asked for when bins were installed
     const DrawnState drawn = node.asDrawable() ? drawnStateByClass(node, rules) : drawnStateOf(node, rules);
     return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && standsBelowParent(node);
@@ -229,19 +225,11 @@ bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const
 // Whether all of a tile's own mesh is drawn.
 bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
                                  const FamilyTile* member) const {
-    if (!member || !member->isMesh(mesh)) {
-        const InstalledTile* const installed = tile.getInstalledTile();
-        const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
-        bool hasDrawable = false;
-        return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
-    }
-    if (member->isBareMesh(_visitor)) return true;
-    for (std::size_t i = 0; const osg::Node* const part = member->part(i); ++i) {
-        const bool mayLeaveOut = part->getCullCallback() && CullCallbacks(*part).mayLeaveOut;
-        if (mayChange(*part) || !isSurelyDrawn(*part, mayLeaveOut)) return false;
-        if (member->isTerrain(i) && !isDrawnByTechnique(*part)) return false;
-    }
-    return true;
+    if (member && member->isMesh(mesh) && member->isBareMesh(_visitor)) return true;
+    const InstalledTile* const installed = tile.getInstalledTile();
+    const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
+    bool hasDrawable = false;
+    return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
 }
 
 bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
@@ -257,10 +245,23 @@ bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool& hasDrawable) const
     return true;
 }
 
-// Whether the eye may be within or below what the tile or its descendants draw.
+// Whether the eye may be within or below what the tile or its descendants draw. Another technique may draw beyond the
+// latitudes and longitudes of the bin, by the margin that the application vouches for. A bin that is not valid may be
+// anywhere.
 bool SelectionWalk::isAbout(const AnalyticBinCullCallback& tile) const {
-    if (!_place || _place->altitude > tile.getBinHigh()) return false;
-    return isInColumn(*_place, tile, _selected.view.ellipsoid);
+    if (!_search.place || _search.place->altitude > tile.getBinHigh()) return false;
+    const core::GeodeticBin& bin = tile.getBin().bin();
+    if (bin.empty()) return true;
+    constexpr double kCurved = 1.1;  // arcs are longer than chords
+    const double overhang = tile.getTerrainShape() ? tile.getTerrainShape()->techniqueMargin : 0.0;
+    const double north = kCurved * overhang / core::smallestCurvatureRadius(_view.ellipsoid);
+    const core::Interval& latitude = bin.latitude();
+    if (_search.place->latitude < latitude.lower - north || _search.place->latitude > latitude.upper + north)
+        return false;
+    if (north == 0.0) return bin.contains({_search.place->latitude, _search.place->longitude, bin.altitude().middle()});
+    const double east = north / std::max(std::cos(std::abs(_search.place->latitude) + north), 1e-9);
+    return std::abs(std::remainder(_search.place->longitude - bin.longitude().middle(), 2.0 * osg::PI)) <=
+           0.5 * bin.longitude().width() + east;
 }
 
 // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
@@ -268,16 +269,18 @@ bool SelectionWalk::isBeside(const Tile& tile) const {
     return tile.isFitted && isBesideFrustum(tile.numbers.column);
 }
 
-bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius) const {
-    return std::any_of(_planes.begin(), _planes.end(),
-                       [&](const osg::Plane& plane) { return plane.distance(center) < -radius; });
+bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius, core::PlaneMask planes) const {
+    for (std::size_t i = 0; planes != 0 && i < _planes.size(); ++i, planes >>= 1) {
+        if ((planes & 1) != 0 && _planes[i].distance(center) < -radius) return true;
+    }
+    return false;
 }
 
 // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
 bool SelectionWalk::isLeftOutInView(const Tile& tile, const osg::Node& mesh) const {
     if (tile.isOutOfView && !_isBelowOutOfView) return false;
     // OSG may enter the mesh also where it is to be drawn directly
-    const bool hasOwnBound = BoundWatch::hasOwnBound(mesh), isScaled = _selected.view.shape.verticalScale != 1.0;
+    const bool hasOwnBound = BoundWatch::hasOwnBound(mesh), isScaled = _view.shape.verticalScale != 1.0;
     if ((hasOwnBound || (isScaled && tile.isEnteredByOsg)) && isLeftOut(mesh)) return true;
     return _isBelowOutOfView && (hasOwnBound || isScaled || !isBesideFrustum(sphereOf(mesh)));
 }

@@ -10,8 +10,8 @@
 #include "../Scoped.h"
 #include "../tile/BoundWatch.h"
 #include "../tile/InstalledTile.h"
-#include "BinCulling.h"
 #include "CullCallbacks.h"
+#include "CullScopes.h"
 
 #include <osg/PagedLOD>
 #include <osgUtil/CullVisitor>
@@ -22,13 +22,13 @@ namespace osgAnalyticBin {
 
 namespace {
 
-TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight) {
-    TileFamily::Hiding hiding{eye, sight};
+TileFamily::Hiding hidingFrom(const DatabaseView& view, const core::HorizonEye* eye) {
+    TileFamily::Hiding hiding{eye};
     if (!eye || !(eye->data().cosDip > 0.0)) return hiding;
     // In the space where the ellipsoid is the unit sphere, a length is at most that in metres over the smaller radius.
-    const core::Ellipsoid& ellipsoid = selected.view.ellipsoid;
+    const core::Ellipsoid& ellipsoid = view.ellipsoid;
     const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-    hiding.at = selected.visitor.getViewPoint();
+    hiding.at = view.visitor.getViewPoint();
     hiding.tangent = smaller * eye->data().scale * eye->data().sinDip / eye->data().cosDip;
     return hiding;
 }
@@ -47,50 +47,23 @@ bool isPlain(const osg::NodeVisitor& visitor) {
 
 }  // namespace
 
-// While it exists, the walk is below a node that OSG enters by itself.
-class SelectionWalk::Below {
-public:
-    Below(SelectionWalk& walk, Number kept)
-        : _selection(walk._selection),
-          _kept(kept),
-          _segment(walk._segment, TileSelection::kNone),
-          _in(walk._in, TileSelection::kNone) {}
-    ~Below() { _selection.endBelow(_kept); }
-    Below(const Below&) = delete;
-    Below& operator=(const Below&) = delete;
-
-private:
-    TileSelection& _selection;
-    const Number _kept;
-    const Scoped<Number> _segment, _in;
-};
-
-SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight)
-    : SelectionWalk(selected, eye, sight, {std::nullopt, 0.0, 0.0, false}) {
-    _searches = false;
-}
-
-SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight,
-                             const Search& search)
-    : _selected(selected),
-      _visitor(selected.visitor),
-      _selection(*selected.view.selection),
-      _hiding(hidingFrom(selected, eye, sight)),
-      _place(search.place),
-      _occluder(search.occluder),
-      _deepest(search.deepest),
-      _isEager(search.isEager),
-      _isPlainVisitor(isPlain(selected.visitor)),
-      _planes(testedPlanes(selected.cullStack.getCurrentCullingSet())),
-      _searches(true) {
-    const osg::CullingSet& cullingSet = selected.cullStack.getCurrentCullingSet();
+SelectionWalk::SelectionWalk(const DatabaseView& view, const core::HorizonEye* eye, const Search* search)
+    : _view(view),
+      _visitor(view.visitor),
+      _selection(*view.selection),
+      _hiding(hidingFrom(view, eye)),
+      _search(search ? *search : Search()),
+      _isPlainVisitor(isPlain(view.visitor)),
+      _planes(testedPlanes(view.cullStack.getCurrentCullingSet())),
+      _searches(search) {
+    const osg::CullingSet& cullingSet = view.cullStack.getCurrentCullingSet();
     _testsSmallFeatures = (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) != 0;
     if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
     _undecided = cullingSet.getFrustum().getCurrentMask();
 }
 
 void SelectionWalk::select(osg::Group& root) {
-    _selection.begin(TileSelection::Conditions::of(_visitor, _selected.cullStack));
+    _selection.begin(TileSelection::Conditions::of(_visitor, _view.cullStack));
     selectChildren(root, CullCallbacks(root).family);
 }
 
@@ -105,7 +78,7 @@ TileSelection::Number SelectionWalk::selectBelow(osg::Group& group, const TileFa
 void SelectionWalk::selectChildren(osg::Group& group, const TileFamily* family) {
     if (family && !_toEcef && isPassedOver(group, *family)) return;
     if (family && family->hasLost(group)) doubt();
-    const bool isFamily = family && !_toEcef && family->culls(group, _selected.cullStack, _selected.view);
+    const bool isFamily = family && !_toEcef && family->culls(group, _view);
     if (isFamily && _keeps && _segment == TileSelection::kNone) return void(selectBelow(group, *family));
     if (isFamily) return selectFamily(group, *family);
     for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
@@ -119,16 +92,17 @@ bool SelectionWalk::isPassedOver(const osg::Group& group, const TileFamily& fami
     constexpr double kRounding = 1e-9;
     const osg::Vec3d& center = columns->sphere().center();
     const double radius = columns->sphere().radius() + kRounding * (center.length() + columns->sphere().radius());
-    if (!isBesideFrustum(center, radius) || (_place && isOverEye(center, radius))) return false;
+    if (!isBesideFrustum(center, radius) || (_search.place && isOverEye(center, radius))) return false;
     // without it children may have changed unnoticed
     return BoundWatch::isOn(group);
 }
 
 // Whether a sphere is about the eye or above it.
 bool SelectionWalk::isOverEye(const osg::Vec3d& center, double radius) {
-    const core::Ellipsoid& ellipsoid = _selected.view.ellipsoid;
+    const core::Ellipsoid& ellipsoid = _view.ellipsoid;
     if (!_standing)
-        _standing = {toOsg(ellipsoid.toEcef(*_place)), toOsg(ellipsoid.up(_place->latitude, _place->longitude))};
+        _standing = {toOsg(ellipsoid.toEcef(*_search.place)),
+                     toOsg(ellipsoid.up(_search.place->latitude, _search.place->longitude))};
     const osg::Vec3d toCenter = center - _standing->at;
     return (toCenter - _standing->up * std::max(0.0, toCenter * _standing->up)).length() <= radius;
 }
@@ -141,7 +115,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
     if (_keeps) _selection.addFamily(family);
     TileFamily::Verdicts verdicts;
     for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
-        family.test(group, first, _selected.view.planes, _undecided, _hiding, !_ignoresDepth, verdicts);
+        family.test(group, first, _view.planes, _undecided, _hiding, !_ignoresDepth, verdicts);
         if (verdicts.lacksTiles) doubt();
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t kept = _keeps ? keptOf(family, first, verdicts) : 0;
@@ -149,10 +123,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
                                               ? notSearchedIn(verdicts, family.block().partFrom(first))
                                               : verdicts.members;
         constexpr unsigned int kLinesOfTile = 5;
-        forEachBit(kept, [&](unsigned int number) {
-            prefetchNode(family.node(first + number), kLinesOfTile);
-            family.tile(first + number).wayThrough().fetch();
-        });
+        forEachBit(kept, [&](unsigned int number) { prefetchNode(family.node(first + number), kLinesOfTile); });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         forEachBit(lowestBits(here) & ~(notSearched & ~kept), [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
@@ -161,7 +132,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
             selectMember(child, family, verdicts, first + number, hasBit(kept, number));
         });
     }
-    if (isChanged && _keeps) _selected.view.database->noteChanged(group);
+    if (isChanged && _keeps) _view.database->noteChanged(group);
 }
 
 // Of the family's tiles, those that are neither out of view nor small. Counts them.
@@ -169,7 +140,7 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
                                     const TileFamily::Verdicts& verdicts) {
     const std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
     std::uint64_t culled = verdicts.members & verdicts.outOfView();
-    osg::CullingSet& cullingSet = _selected.cullStack.getCurrentCullingSet();
+    osg::CullingSet& cullingSet = _view.cullStack.getCurrentCullingSet();
     if (_testsSmallFeatures) {
         forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
             const unsigned int slot = first + number;
@@ -196,8 +167,8 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
 // Tiles out of view that are not about the eye, and whose column is the bin or reaches no deeper than the occluder:
 // lines of sight would meet the bin before the occluder.
 std::uint64_t SelectionWalk::notSearchedIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const {
-    if (_place && _place->altitude <= part.highest) return 0;
-    const std::uint64_t withColumns = part.lowest < -_occluder ? part.withOwnColumns : 0;
+    if (_search.place && _search.place->altitude <= part.highest) return 0;
+    const std::uint64_t withColumns = part.lowest < -_search.occluder ? part.withOwnColumns : 0;
     return verdicts.members & (verdicts.outOfView() | verdicts.beyond) & ~withColumns;
 }
 
@@ -207,7 +178,7 @@ bool SelectionWalk::isSearched(const Tile& tile, const TileFamily& family, const
     const bool isInView = hasBit(verdicts.tested, number) && !hasBit(verdicts.outOfView() | verdicts.beyond, number);
     if (isInView || tile.isAboutEye) return true;
     const bool isBin = !hasBit(family.block().partFrom(slot).withOwnColumns, number);
-    if (isBin || tile.numbers.altitude.lower >= -_occluder || isBesideFrustum(tile.numbers.column)) return false;
+    if (isBin || tile.numbers.altitude.lower >= -_search.occluder || isBesideFrustum(tile.numbers.column)) return false;
     return !_hiding.eye || !family.block().isColumnHidden(slot, *_hiding.eye);
 }
 
@@ -217,8 +188,8 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const FamilyTile& member = family.tile(slot);
     const TileBlock::Slot& numbers = family.block()[slot];
     const bool isAboutEye =
-        _searches && _place && _place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
-    const bool isAlone = member.isAlone(node, _selected.cullStack);
+        _searches && _search.place && _search.place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
+    const bool isAlone = member.isAlone(node, _view.cullStack);
     Tile tile{*member.callback(), numbers, true, &member, !_isPlainVisitor || !isAlone, isAboutEye};
     tile.isOutOfView = hasBit(verdicts.outOfView(), number);
     const Scoped searches(_searches, _searches && isSearched(tile, family, verdicts, slot));
@@ -239,9 +210,10 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
     tile.kept = keep(node, &member, isDirect ? way : Way::Tile);
-    const Below below(*this, tile.kept);
     tile.isEnteredByOsg = tile.isEnteredByOsg || member.paged();
+    const Scoped segment(_segment, TileSelection::kNone), in(_in, TileSelection::kNone);
     if (_searches) searchTile(node, member.paged(), tile);
+    _selection.endBelow(tile.kept);
 }
 
 TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* member, Way way) {
@@ -254,11 +226,11 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT;
     // evidence does not rely on sizes on screen
     if ((!byDistance && _searches) || node.getNumFileNames() == 0) return false;
-    const float scale = _selected.cullStack.getLODScale();
+    const float scale = _view.cullStack.getLODScale();
     if (!byDistance && !(scale > 0.0f)) return false;
     const osg::LOD::RangeList& ranges = node.getRangeList();
     const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true)
-                                   : _selected.cullStack.clampedPixelSize(node.getBound()) / scale;
+                                   : _view.cullStack.clampedPixelSize(node.getBound()) / scale;
     std::optional<unsigned int> shown;
     for (unsigned int i = 0; i < ranges.size(); ++i) {
         if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
@@ -271,7 +243,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
         if (!tile.isCertain && tile.callback.getInstalledTile()->has(InstalledTile::GapBelow)) doubt();
-        selectLevel(level, tile.member->wayThrough());
+        selectLevel(level);
         return true;
     }
     Tile here = tile;
@@ -289,15 +261,13 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
                             _visitor.validNodeMask(node);
     if (!isPossible) return nullptr;
     const auto* const family = static_cast<const TileFamily*>(callback->asNodeCallback());
-    return family->culls(*node.asGroup(), _selected.cullStack, _selected.view) ? family : nullptr;
+    return family->culls(*node.asGroup(), _view) ? family : nullptr;
 }
 
 // A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level, const Footprint& wayThrough) {
+void SelectionWalk::selectLevel(osg::Node& level) {
     const TileFamily* const family = inlineFamily(level);
-    if (!family) return selectNode(level);
-    family->noteMemory(wayThrough, level);
-    selectInside(*level.asGroup(), family);
+    family ? selectInside(*level.asGroup(), family) : selectNode(level);
 }
 
 // The children of a plain group, which is entered.
@@ -319,8 +289,10 @@ void SelectionWalk::selectNode(osg::Node& node) {
                               !isPhotogrammetrySet(node);
     if (isPlainGroup) return selectGroup(node, family);
     if (!isInSegment) return searchNode(node);
-    const Below below(*this, keep(node, nullptr, Way::Plain));
+    const Number kept = keep(node, nullptr, Way::Plain);
+    const Scoped segment(_segment, TileSelection::kNone), in(_in, TileSelection::kNone);
     searchNode(node);
+    _selection.endBelow(kept);
 }
 
 // A plain group, which OSG tests by its sphere.
@@ -333,7 +305,7 @@ void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (_searches && isLeftOut(node)));
     core::PlaneMask left = _undecided;
     const bool isCulled =
-        node.isCullingActive() && isSphereCulled(_selected.cullStack.getCurrentCullingSet(), left, node.getBound());
+        node.isCullingActive() && isSphereCulled(_view.cullStack.getCurrentCullingSet(), left, node.getBound());
     const Scoped keeps(_keeps, _keeps && !isCulled);
     if (!_keeps && !_searches) return;
     const Scoped undecided(_undecided, left);

@@ -26,13 +26,6 @@
 
 namespace osgAnalyticBin {
 
-/// The traversal that a database is selected for.
-struct SelectedView {
-    osg::NodeVisitor& visitor;
-    osg::CullStack& cullStack;
-    const DatabaseView& view;
-};
-
 /// The walk over the tiles that a camera's levels of detail show, which makes the selection of a view. It tests
 /// siblings together, chooses levels as osg::PagedLOD does, and keeps what is in view and not hidden. On the way it
 /// collects the evidence that what hides is drawn: it also goes to tiles out of view where lines of sight pass above
@@ -40,19 +33,16 @@ struct SelectedView {
 /// is kept. Source: doc/theory/horizon.md, section 8.
 class SelectionWalk {
 public:
-    /// Selects, and collects no evidence. `eye` null: nothing is hidden.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight);
-
     /// What evidence is collected for.
     struct Search {
         std::optional<core::Geodetic> place;  ///< of the eye, where it has one
-        double occluder;                      ///< metres below the ellipsoid of the occluder; minus infinity: none
-        double deepest;                       ///< the same: nothing is drawn below
-        bool isEager;                         ///< a tile that is not drawn whole ends the walk at once
+        double occluder = 0.0;                ///< metres below the ellipsoid of the occluder; minus infinity: none
+        double deepest = 0.0;                 ///< the same: nothing is drawn below
+        bool isEager = false;                 ///< a tile that is not drawn whole ends the walk at once
     };
-    /// The same with evidence. A hole ends the walk, and what was selected is of no use then.
-    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight,
-                  const Search& search);
+    /// `eye` null: nothing is hidden. `search` null: no evidence is collected. Otherwise a hole ends the walk, and what
+    /// was selected is of no use then.
+    SelectionWalk(const DatabaseView& view, const core::HorizonEye* eye, const Search* search);
 
     /// Walks over the database.
     void select(osg::Group& root);
@@ -91,7 +81,6 @@ private:
         bool isCertain = false;  // see InstalledTile; in doubt that has to be asked
         Number kept = TileSelection::kNone;
     };
-    class Below;
 
     void selectChildren(osg::Group& group, const TileFamily* family);
     void selectFamily(osg::Group& group, const TileFamily& family);
@@ -102,7 +91,7 @@ private:
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
     void selectInside(osg::Group& group, const TileFamily* family);
-    void selectLevel(osg::Node& level, const Footprint& wayThrough);
+    void selectLevel(osg::Node& level);
     void searchNode(osg::Node& node);
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);
@@ -132,20 +121,18 @@ private:
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const;
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const;
     [[nodiscard]] bool isBeside(const Tile& tile) const;
-    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius) const;
+    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius,
+                                       core::PlaneMask planes = ~core::PlaneMask{0}) const;
     [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
         return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius());
     }
     [[nodiscard]] bool isLeftOutInView(const Tile& tile, const osg::Node& mesh) const;
 
-    const SelectedView _selected;
+    const DatabaseView& _view;
     osg::NodeVisitor& _visitor;
     TileSelection& _selection;
     const TileFamily::Hiding _hiding;
-    const std::optional<core::Geodetic> _place;  // of the eye
-    const double _occluder;                      // metres below the ellipsoid
-    const double _deepest;                       // likewise
-    const bool _isEager;
+    const Search _search;
     const bool _isPlainVisitor;
     const osg::Polytope::PlaneList& _planes;
     bool _testsSmallFeatures = false;

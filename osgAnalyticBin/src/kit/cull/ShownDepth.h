@@ -3,25 +3,14 @@
 
 #pragma once
 
-#include "SelectionWalk.h"
+#include "CullTraversal.h"
 #include "Viewpoint.h"
 
-#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-
-#include <osg/Group>
 
 #include <optional>
 
 namespace osgAnalyticBin {
-
-/// A database whose cull traversal is about to begin.
-struct ShownDatabase {
-    osg::Group& root;
-    SelectedView selected;
-    const core::CoveredRegion* region;  // that is covered; null: the globe
-    bool expectsHole = false;           // as in the last view
-};
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of
 /// detail and by what is loaded, in the frustum, between the eye and its horizon. Coarse meshes elsewhere, which dip
@@ -35,17 +24,17 @@ struct ShownDatabase {
 /// when a tile in view may not be drawn or can be seen through, and when the eye is not known to be above the ground
 /// below it. Cost: that of the walk, mostly once. Source: doc/theory/horizon.md,
 /// section 8. The selection of the view is made for this eye; without an eye it has to be made anew.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const DatabaseView& view,
                                                                                         const Viewpoint& viewpoint,
                                                                                         double deepest, double& depth);
 
 /// The same over an occluder at a given depth (metres), where no tile is known to reach lower.
-[[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
+[[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const DatabaseView& view, const Viewpoint& viewpoint,
                                                             double depth);
 
 /// Makes the selection where no horizon can be used.
 /// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it; if not,
 /// the selection has to be made anew.
-[[nodiscard]] bool selectWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
+[[nodiscard]] bool selectWithoutHorizon(const DatabaseView& view, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

@@ -7,11 +7,10 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../tile/InstalledTile.h"
-#include "BinCulling.h"
+#include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
 #include "InstalledBin.h"
-#include "SightOverRegion.h"
 
 #include <osg/CoordinateSystemNode>
 
@@ -143,7 +142,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
 }
 
 // The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
-bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
+bool TileFamily::culls(const osg::Node& group, const DatabaseView& view) const {
+    osg::CullStack& cullStack = view.cullStack;
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
     return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
            view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
@@ -151,15 +151,14 @@ bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const 
 }
 
 void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    osg::CullStack* const cullStack = nv->asCullStack();
-    CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
+    CullTraversal* const traversal = nv->asCullStack() ? &CullTraversal::of(*nv) : nullptr;
     const DatabaseView* const view =
         traversal && !traversal->statistics().isTileByTile() ? traversal->databaseView() : nullptr;
-    if (!view || !culls(*node, *cullStack, *view)) {
+    if (!view || !culls(*node, *view)) {
         traverse(node, nv);
         return;
     }
-    view->drawFamily(*node->asGroup(), *this, *nv, *cullStack, *view);
+    draw(*node->asGroup(), *view);
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
@@ -174,7 +173,6 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.beyond =
         hiding.eye && !isNear ? part.bins.hiddenFrom(*hiding.eye, verdicts.tested & ~verdicts.planes.outside) : 0;
     verdicts.hidden = obeyDepth ? hideable(first, verdicts.beyond & part.hideable) : 0;
-    if (verdicts.hidden != 0 && hiding.sight) verdicts.hidden = hiding.sight->heldIn(part.bins, verdicts.hidden);
     const std::size_t end =
         std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
     for (std::size_t i = first; i < end; ++i) {
@@ -184,18 +182,6 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
     findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
                   verdicts);
-}
-
-void TileFamily::noteMemory(const Footprint& footprint, const osg::Node& level) const {
-    Footprint::Notes notes(footprint);
-    notes.add(&level, 4);
-    notes.add(this, 5);
-    notes.add(_block, 2);
-    notes.add(_nodes.data(), 1);
-    if (_block->size() == 0) return;
-    notes.add(&_block->partFrom(0), 4);
-    notes.add(&(*_block)[0], 6);
-    notes.add(_tiles.data(), 12);
 }
 
 // A state that the application has set since then is asked for.

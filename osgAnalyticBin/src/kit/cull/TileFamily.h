@@ -23,7 +23,6 @@
 
 namespace osgAnalyticBin {
 
-class SightOverRegion;
 struct DatabaseView;
 
 /// The cull callback of a group with tiles among its children, which are tested together, and what is known of the
@@ -56,6 +55,14 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    /// Draws what is kept below the group, to which OSG's traversal has come: by what was selected before, or, where
+    /// that does not hold for this traversal, by a selection that is made now.
+    /// Guarantee: the visitor comes to all that is kept as it would through OSG's nodes, in the same order, with the
+    /// same states, node paths and culling masks, and with time stamps of the levels on the way; tests: TileFamily.*,
+    /// FamilyTile.*, PagedFlight.*, Selection.*. Of what callbacks of an application change on nodes meanwhile, masks
+    /// count at once; all else may count from the next traversal on. Requires: culls().
+    void draw(osg::Group& group, const DatabaseView& view) const;
+
     /// The results for up to TileBlock::Part::kMost children, one bit each.
     struct Verdicts {
         Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
@@ -73,14 +80,13 @@ public:
     };
 
     /// Whether the family may cull the children of the group in this traversal.
-    [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
+    [[nodiscard]] bool culls(const osg::Node& group, const DatabaseView& view) const;
 
     /// What hides tiles; null: nothing.
     struct Hiding {
         const core::HorizonEye* eye = nullptr;
-        const SightOverRegion* sight = nullptr;  ///< of an eye over a region
-        osg::Vec3d at{};                         ///< of the eye
-        double tangent = 0.0;                    ///< metres from there within which the horizon hides nothing
+        osg::Vec3d at{};       ///< of the eye
+        double tangent = 0.0;  ///< metres from there within which the horizon hides nothing
     };
     /// Tests the children from `first` on, a multiple of kMost. `obeyDepth`: whether they do by the states above.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
@@ -102,9 +108,6 @@ public:
     /// Whether a tile, or a group of tiles, was removed from the group since bins were installed: the terrain may have
     /// a hole.
     [[nodiscard]] bool hasLost(const osg::Group& group) const;
-
-    /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
-    void noteMemory(const Footprint& footprint, const osg::Node& level) const;
 
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }

@@ -30,7 +30,7 @@ void TileSelection::clear() {
     _shown.clear();
     _families.clear();
     _held.clear();
-    _heldSizes = {};
+    _heldFamilies = _heldPlaces = _heldKept = 0;
     _occluded.clear();
     _next = 0;
 }
@@ -95,36 +95,15 @@ TileSelection::Number TileSelection::find(const TileFamily& family, core::PlaneM
 }
 
 void TileSelection::hold() {
-    const Sizes now = sizes();
-    for (std::size_t i = _heldSizes.families; i < now.families; ++i) _held.emplace_back(_families[i]);
-    for (std::size_t i = _heldSizes.places; i < now.places; ++i) {
-        _held.emplace_back(_places[i].node);
-        _held.emplace_back(_places[i].state);
+    for (; _heldFamilies < _families.size(); ++_heldFamilies) _held.emplace_back(_families[_heldFamilies]);
+    for (; _heldPlaces < _places.size(); ++_heldPlaces) {
+        _held.emplace_back(_places[_heldPlaces].node);
+        _held.emplace_back(_places[_heldPlaces].state);
     }
     // families hold their tiles, and these their meshes
-    for (std::size_t i = _heldSizes.kept; i < now.kept; ++i) {
-        if (_kept[i].way == Way::Plain) _held.emplace_back(_kept[i].node);
+    for (; _heldKept < _kept.size(); ++_heldKept) {
+        if (_kept[_heldKept].way == Way::Plain) _held.emplace_back(_kept[_heldKept].node);
     }
-    _heldSizes = now;
-}
-
-TileSelection::Inner::Inner(TileSelection& selection)
-    : _selection(selection), _before(selection.sizes()), _next(selection._next) {
-    selection._next = _before.segments;
-}
-
-TileSelection::Inner::~Inner() {
-    const auto shorten = [](auto& list, std::size_t size) {
-        list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
-    };
-    shorten(_selection._segments, _before.segments);
-    shorten(_selection._places, _before.places);
-    shorten(_selection._kept, _before.kept);
-    shorten(_selection._families, _before.families);
-    _selection._heldSizes.families = std::min(_selection._heldSizes.families, _before.families);
-    _selection._heldSizes.places = std::min(_selection._heldSizes.places, _before.places);
-    _selection._heldSizes.kept = std::min(_selection._heldSizes.kept, _before.kept);
-    _selection._next = _next;
 }
 
 }  // namespace osgAnalyticBin

@@ -84,10 +84,6 @@ public:
     [[nodiscard]] const Conditions& conditions() const { return _conditions; }
     void clear();
 
-    struct Sizes {
-        std::size_t segments = 0, places = 0, kept = 0, families = 0;
-    };
-
     /// @{
     /// For the walk.
     Number beginSegment(const TileFamily& family, core::PlaneMask undecided);
@@ -121,23 +117,7 @@ public:
     /// application may remove others there.
     void hold();
 
-    /// A selection within another one, which is made and drawn while that is drawn.
-    class Inner {
-    public:
-        explicit Inner(TileSelection& selection);
-        ~Inner();
-        Inner(const Inner&) = delete;
-        Inner& operator=(const Inner&) = delete;
-
-    private:
-        TileSelection& _selection;
-        const Sizes _before;
-        const std::size_t _next;
-    };
-
 private:
-    [[nodiscard]] Sizes sizes() const { return {_segments.size(), _places.size(), _kept.size(), _families.size()}; }
-
     Conditions _conditions;
     std::vector<Segment> _segments;
     std::vector<Place> _places;
@@ -145,7 +125,7 @@ private:
     std::vector<ShownTile> _shown;
     std::vector<const osg::Referenced*> _families;
     std::vector<osg::ref_ptr<const osg::Referenced>> _held;
-    Sizes _heldSizes;  // of what they are for
+    std::size_t _heldFamilies = 0, _heldPlaces = 0, _heldKept = 0;  // how many they are for
     // Sorted when the first tile is asked for: few are tested alone.
     std::vector<const AnalyticBinCullCallback*> _occluded;
     bool _isSorted = true;

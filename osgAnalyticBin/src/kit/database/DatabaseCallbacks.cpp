@@ -8,13 +8,11 @@
 #include "../GlmBridge.h"
 #include "../Inverse.h"
 #include "../Spheres.h"
-#include "../cull/BinCulling.h"
 #include "../cull/ComputedNear.h"
 #include "../cull/CullCallbacks.h"
+#include "../cull/CullScopes.h"
 #include "../cull/CullTraversal.h"
 #include "../cull/DrawnState.h"
-#include "../cull/SearchMemory.h"
-#include "../cull/SelectionDrawing.h"
 #include "../cull/SelectionWalk.h"
 #include "../cull/ShownDepth.h"
 #include "../cull/Viewpoint.h"
@@ -40,7 +38,7 @@ namespace {
 constexpr unsigned int kShortestRest = 8;
 
 // Whether to look for tiles behind terrain in this view.
-bool isOcclusionDue(OcclusionUse use, SearchMemory::LastView& last) {
+bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
@@ -49,7 +47,7 @@ bool isOcclusionDue(OcclusionUse use, SearchMemory::LastView& last) {
 // After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
 // microseconds of drawing; looking for hidden tiles takes three to seven microseconds for each tile in view, and serves
 // some views.
-void noteHidden(const TerrainHider::Hidden& hidden, SearchMemory::LastView& last) {
+void noteHidden(const TerrainHider::Hidden& hidden, CullTraversal::LastView& last) {
     if (hidden.isAwaited) return;
     constexpr unsigned int kLongestRest = 256;
     const bool pays = 4 * hidden.tiles.size() >= hidden.inView && !hidden.tiles.empty();
@@ -58,7 +56,7 @@ void noteHidden(const TerrainHider::Hidden& hidden, SearchMemory::LastView& last
 }
 
 // Where searches have come to nothing for long, as with callbacks on all tiles, some views are enough to look again.
-bool isHoleTakenForGranted(OcclusionUse use, SearchMemory::LastView& last) {
+bool isHoleTakenForGranted(OcclusionUse use, CullTraversal::LastView& last) {
     constexpr unsigned int kLong = 16, kSeldom = 8;
     if (use == OcclusionUse::On || last.holes < kLong || last.holes % kSeldom == 0) return false;
     ++last.holes;
@@ -68,16 +66,21 @@ bool isHoleTakenForGranted(OcclusionUse use, SearchMemory::LastView& last) {
 // What is hidden by the horizon in a view.
 struct Horizon {
     std::optional<core::HorizonEye> eye;
-    std::optional<core::CoveredRegion> region;  // that the eye is over
-    bool isSelected = false;                    // what is drawn is selected already
-    std::optional<double> nearReach;            // of an eye, see Viewpoint
-    osg::ref_ptr<TerrainHider> hider;           // null: terrain hides nothing
+    bool isSelected = false;           // what is drawn is selected already
+    std::optional<double> nearReach;   // of an eye, see Viewpoint
+    osg::ref_ptr<TerrainHider> hider;  // null: terrain hides nothing
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
     if (!viewpoint.eye()) return false;
     const core::Geodetic at = region.ellipsoid().toGeodetic(*viewpoint.eye());
     return region.contains({{at.latitude, at.latitude}, {at.longitude, at.longitude}, {0.0, 0.0}});
+}
+
+// Whether the eye sees past the region's border before its horizon, however high the terrain is.
+bool isHorizonPast(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
+    const auto eye = viewpoint.above(region.ellipsoid(), 0.0);
+    return eye && !region.holdsHorizonOf(*eye);
 }
 
 // Whether a callback of the application's at the database's root or above may leave tiles out, or have them drawn
@@ -111,8 +114,7 @@ constexpr const char* kDepths =
 
 // Why nothing in this view hides tiles, by what is known of the database as a whole: the condition that is missing.
 // Returns: nullptr where something may.
-const char* missingToHide(const ShownDatabase& shown, Database& database, const CullOptions& options) {
-    const DatabaseView& view = shown.selected.view;
+const char* missingToHide(const DatabaseView& view, Database& database, const CullOptions& options) {
     // in a map nothing else is looked for
     if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return kOcclusionOn;
     if (!isDepthGiven(view, options)) {
@@ -121,11 +123,11 @@ const char* missingToHide(const ShownDatabase& shown, Database& database, const 
         if (database.has(Finding::Gap)) return kNoGaps;
     }
     // where other tiles cover the globe, stray ones hide nothing that these do not
-    const bool isRelyingOnStrays = (database.has(Finding::Gap) || shown.region) && database.has(Finding::StrayTile);
+    const bool isRelyingOnStrays = (database.has(Finding::Gap) || view.region) && database.has(Finding::StrayTile);
     if (isRelyingOnStrays) return "tiles that stand in one place each";
-    osg::NodeVisitor& visitor = shown.selected.visitor;
-    if (isAltered(visitor.getNodePath())) return "no cull callbacks at the root of the database and above";
-    return drawnStateAbove(visitor, view.rules).hides ? nullptr : "filled and opaque terrain, and declared shaders";
+    if (isAltered(view.visitor.getNodePath())) return "no cull callbacks at the root of the database and above";
+    return drawnStateAbove(view.visitor, view.rules).hides ? nullptr
+                                                           : "filled and opaque terrain, and declared shaders";
 }
 
 // `unknown`: of unknown depth; null: the camera's settings are the reason.
@@ -138,14 +140,14 @@ void reportUnknownNearPlane(Database& database, const osg::Node* unknown) {
 }
 
 // Marks what terrain hides in the selection. Returns: the hider if it knows what is covered.
-osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Database& database,
-                                               const Viewpoint& viewpoint, SearchMemory::LastView& last) {
+osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Database& database, const Viewpoint& viewpoint,
+                                               CullTraversal::LastView& last) {
     if (!last.hider) last.hider = makeTerrainHider();
     if (!last.hider) return nullptr;
-    const auto& [visitor, cullStack, view] = shown.selected;
+    osg::NodeVisitor& visitor = view.visitor;
     TileSelection& selection = *view.selection;
     std::optional<ComputedNear> computed;
-    if (!isFinalProjection(cullStack)) {
+    if (!isFinalProjection(view.cullStack)) {
         const osg::Node* unknown = nullptr;
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
         if (unknown) reportUnknownNearPlane(database, unknown);
@@ -155,9 +157,9 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Datab
             return nullptr;
         }
     }
-    SearchMemory::of(visitor).hiding.clear();
+    CullTraversal::of(visitor).hiding.clear();
     const TerrainHider::Hidden hidden =
-        last.hider->find({cullStack, view.ellipsoid, view.planes, view.shape, shown.region, *viewpoint.eye(),
+        last.hider->find({view.cullStack, view.ellipsoid, view.planes, view.shape, view.region, *viewpoint.eye(),
                           viewpoint.nearReach(), computed ? &*computed : nullptr},
                          selection.shown());
     for (const std::size_t i : hidden.withoutPlates) {
@@ -173,16 +175,16 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const ShownDatabase& shown, Datab
 }
 
 // How far from the eye the near plane cuts what is drawn at most, in metres; infinite where that is not known.
-double reachOfComputedNear(const SelectedView& selected) {
+double reachOfComputedNear(const DatabaseView& view) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    osgUtil::CullVisitor& visitor = *selected.visitor.asCullVisitor();
+    osgUtil::CullVisitor& visitor = *view.visitor.asCullVisitor();
     const osg::Node* unknown = nullptr;
     const auto eyeToEcef = affineInverse(*visitor.getModelViewMatrix());
     // tiles in front of the projection's own near plane are left out then
     const bool isNearPlaneCulling =
         visitor.getCurrentCullingSet().getCullingMask() & osg::CullingSet::NEAR_PLANE_CULLING;
     if (!ComputedNear::isPossible(visitor, visitor) || !eyeToEcef || isNearPlaneCulling) return kUnknown;
-    const auto near = ComputedNear::of(visitor, *selected.view.selection, unknown);
+    const auto near = ComputedNear::of(visitor, *view.selection, unknown);
     if (!near) return kUnknown;
     double toCorner = 0.0;
     for (int corner = 0; corner < 4; ++corner) {
@@ -214,41 +216,39 @@ bool mayCutTerrain(const DatabaseView& view, const glm::dvec3& eye, double reach
 }
 
 // Tells nodes that are no tiles what the database hides.
-void tellOthers(const SelectedView& selected, const Horizon& horizon) {
-    osgUtil::CullVisitor* const visitor = selected.visitor.asCullVisitor();
+void tellOthers(const DatabaseView& view, const Horizon& horizon) {
+    osgUtil::CullVisitor* const visitor = view.visitor.asCullVisitor();
     if (!visitor || !horizon.nearReach) return;
-    HidingView& hiding = SearchMemory::of(*visitor).hiding;
+    HidingView& hiding = CullTraversal::of(*visitor).hiding;
     const auto isCutOpen = [&] {
-        const bool isFinal = isFinalProjection(selected.cullStack);
-        const double reach = isFinal ? *horizon.nearReach : reachOfComputedNear(selected);
-        const auto eyeToEcef = affineInverse(*selected.cullStack.getModelViewMatrix());
-        return !eyeToEcef || mayCutTerrain(selected.view, toGlm(eyeToEcef->getTrans()), reach);
+        const double reach = isFinalProjection(view.cullStack) ? *horizon.nearReach : reachOfComputedNear(view);
+        const auto eyeToEcef = affineInverse(*view.modelView);
+        return !eyeToEcef || mayCutTerrain(view, toGlm(eyeToEcef->getTrans()), reach);
     };
     // where nobody asks, finding out would take longer than saying that it may be
     const bool isAsked = !horizon.hider && horizon.eye && hiding.isInUse(*visitor);
-    hiding.set(*visitor, {selected.view.ellipsoid, horizon.eye, horizon.region, selected.view.planes, horizon.hider,
-                          !horizon.hider && (!isAsked || isCutOpen())});
+    hiding.set(*visitor, {view.ellipsoid, horizon.eye, horizon.hider, !horizon.hider && (!isAsked || isCutOpen())});
 }
 
-Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& options) {
-    const auto& [visitor, cullStack, view] = shown.selected;
-    const auto region = database.region();
-    if (region) shown.region = &*region;
-    const auto miss = [&visitor = visitor](const char* condition) {
+Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& options) {
+    osg::NodeVisitor& visitor = view.visitor;
+    osg::CullStack& cullStack = view.cullStack;
+    const core::CoveredRegion* const region = view.region;
+    const auto miss = [&](const char* condition) {
         if (condition) BinStatistics::of(visitor).setNotCovered(condition, visitor.getTraversalNumber());
         return condition != nullptr;
     };
-    if (miss(missingToHide(shown, database, options))) return {};
+    if (miss(missingToHide(view, database, options))) return {};
     const auto viewpoint = Viewpoint::of(cullStack, visitor, options.inheritViewpoint);
     if (miss(viewpoint ? nullptr : kPerspective)) return {};
     const bool isMap = view.ellipsoid.isPlane();
     const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    SearchMemory::LastView& last = SearchMemory::of(visitor).lastView(database);
+    CullTraversal::LastView& last = CullTraversal::of(visitor).lastView(database);
     if (isHoleTakenForGranted(options.occlusion, last)) return {};
-    shown.expectsHole = last.holes > 0;
+    view.expectsHole = last.holes > 0;
     // what is hidden among other nodes may be worth a search, too
-    HidingView& hiding = SearchMemory::of(visitor).hiding;
+    HidingView& hiding = CullTraversal::of(visitor).hiding;
     if (hiding.isInUse(visitor)) last.resting = std::min(last.resting, kShortestRest);
     if (hiding.takeWorth()) last.rest = last.resting = 0;
     const auto note = [&](Horizon found) {
@@ -257,10 +257,10 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         return found;
     };
     if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
-        shown.region = nullptr;
+        view.region = nullptr;
         miss(isAboveTerrain(options) ? kNoGaps : "options without skirts=all");
-        const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
-        return note({eye, {}, eye.has_value(), {}, {}});
+        const auto eye = eyeAboveDepth(view, *viewpoint, deepest);
+        return note({eye, eye.has_value(), {}, {}});
     }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.report(Finding::EyeBesideRegion);
@@ -280,18 +280,19 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     if (visitor.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
-    const auto eye = isMap ? std::nullopt : eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
+    const bool hasHorizon = !isMap && !(region && isHorizonPast(*region, *viewpoint));
+    const auto eye = hasHorizon ? eyeAboveWhatIsShown(view, *viewpoint, deepest, last.depth) : std::nullopt;
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
-    const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
+    const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(view, *viewpoint));
     osg::ref_ptr<TerrainHider> hider;
-    if (isSelected && findsOccluded) hider = selectBehindTerrain(shown, database, *viewpoint, last);
+    if (isSelected && findsOccluded) hider = selectBehindTerrain(view, database, *viewpoint, last);
     // a hole leaves nothing to pay for
     if (!isSelected && findsOccluded) {
         noteHidden({}, last);
         miss("an eye above the ground, and tiles in view without holes and callbacks");
     }
-    // a map in which occlusion rests was not searched
-    return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected, {}, hider});
+    // where there is no horizon and occlusion rests there was no search
+    return !hasHorizon && !findsOccluded ? Horizon() : note({eye, isSelected, {}, hider});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -359,25 +360,26 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     beginWithAllPlanes(cullStack);
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();
-    DatabaseView view{_database.get(),
-                      toCore(*_database->ellipsoid()),
-                      _database->shape(options),
-                      nullptr,
+    DatabaseView view{node,
+                      nv,
+                      cullStack,
                       cullStack.getModelViewMatrix(),
                       cullStack.getProjectionMatrix(),
                       traversal.planes(cullStack),
+                      _database.get(),
+                      toCore(*_database->ellipsoid()),
+                      _database->shape(options),
                       &traversal.selection(),
-                      &drawFamily,
+                      &traversal.selection(),
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
-    const ShownDatabase shown{node, {nv, cullStack, view}, nullptr};
-    const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(shown, *_database, options);
+    const auto region = _database->region();
+    if (region) view.region = &*region;
+    const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(view, *_database, options);
     // callbacks of the application's run before what is drawn is selected then
     if (!horizon.isSelected) view.selection->clear();
-    if (horizon.isSelected) tellOthers(shown.selected, horizon);
-    std::optional<SightOverRegion> sight;
+    if (horizon.isSelected) tellOthers(view, horizon);
     if (horizon.eye) view.eye = &*horizon.eye;
-    if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
     {
         const CullTraversal::DatabaseScope scope(nv, traversal, &view);
         traverse(&node, &nv);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../cull/BinCulling.h"
+#include "../cull/CullScopes.h"
 
 #include <osg/CullStack>
 #include <osg/CullingSet>

@@ -9,7 +9,6 @@
 #include <osgAnalyticBin/core/bin/KernelData.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -64,9 +63,6 @@ public:
     /// Returns: the candidates that the horizon hides, with the verdicts of HorizonEye::hides() on single bins.
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
-
-    /// Returns: the candidates for which RegionalSight::holds() is true. Cost: that of holds() for each candidate.
-    [[nodiscard]] std::uint64_t heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept;
 
     /// As core::isSeparated() of the bin. Requires: a slot in filled() (asserted). A curved bin in quadratic form is
     /// seldom found to be separated.

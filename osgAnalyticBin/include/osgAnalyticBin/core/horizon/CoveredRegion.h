@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/vec3.hpp>
 
@@ -12,7 +13,7 @@ namespace osgAnalyticBin::core {
 
 /// The part of the globe that a regional database covers without gaps: all altitudes between two latitudes and two
 /// longitudes. Terrain hides what is behind it where lines of sight stay over the region; a line of sight that comes
-/// from beside the region may pass below the terrain's border. RegionalSight: lines of sight to the horizon.
+/// from beside the region may pass below the terrain's border.
 /// Source: doc/theory/horizon.md, section 10.
 class CoveredRegion final {
 public:
@@ -34,6 +35,12 @@ public:
     /// Guarantee: true only if it is so; tests: CoveredRegion.HoldsAllSegments.
     /// Cost: a conversion to geodetic coordinates and some ten trigonometric functions.
     [[nodiscard]] bool holdsSegmentsFrom(const glm::dvec3& eyeEcef) const noexcept;
+
+    /// Whether every line of sight that meets the occluder, in any direction, stays over the region until it does.
+    /// Never for orthographic cameras. Requires: an eye on the region's ellipsoid.
+    /// Guarantee: true only if it is so; tests: CoveredRegion.HoldsTheHorizon*.
+    /// Cost: some twenty trigonometric functions.
+    [[nodiscard]] bool holdsHorizonOf(const HorizonEye& eye) const noexcept;
 
 private:
     Ellipsoid _ellipsoid;

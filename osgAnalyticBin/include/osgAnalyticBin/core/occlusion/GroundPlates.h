@@ -20,41 +20,19 @@
 
 namespace osgAnalyticBin::core {
 
-/// A convex body within the earth below a terrain's surface: the hull of eight corners, in metres, in the frame that
-/// GroundPlates::columns() was given.
-struct EarthColumn {
-    /// @{
-    /// The corners of a cell, south-west, south-east, north-west, north-east.
-    std::array<glm::dvec3, 4> top, bottom;
-    /// @}
-    /// Metres by which each corner may be wrong.
-    double error = 0.0;
-};
-
-/// The columns of some cells, in rows of numbers for vectors.
-class EarthColumns final {
-public:
+/// Convex bodies within the earth below a terrain's surface, in rows of numbers for vectors: each is the hull of the
+/// corners of a cell, in metres, in the frame that GroundPlates::columns() was given.
+struct EarthColumns {
     /// More than the cells of all grids in a quarter of a tile.
     static constexpr std::size_t kMost = 24;
 
     /// Number of columns.
-    [[nodiscard]] std::size_t size() const noexcept { return _size; }
-    /// Nothing is known of some cells; their columns hide nothing.
-    [[nodiscard]] bool isKnown(std::size_t column) const noexcept { return std::isfinite(_error[column]); }
-    /// Requires: column < size().
-    [[nodiscard]] EarthColumn operator[](std::size_t column) const noexcept;
-    /// Requires: size() < kMost.
-    void append(const EarthColumn& column) noexcept;
-    /// Leaves no column.
-    void clear() noexcept { _size = 0; }
-
-private:
-    friend class GroundPlates;
-    friend class HorizonBuffer;
-
-    std::size_t _size = 0;
-    std::array<double, 24 * kMost> _corners{};  // x, y and z of the upper corners, then of the lower ones
-    std::array<double, kMost> _error{};         // NaN where nothing is known
+    std::size_t size = 0;
+    /// Rows of x, y and z of the south-western, south-eastern, north-western and north-eastern upper corners, then of
+    /// the lower ones.
+    std::array<double, 24 * kMost> corners{};
+    /// Metres by which each corner may be wrong. NaN: nothing is known of the cell, and the column hides nothing.
+    std::array<double, kMost> error{};
 };
 
 /// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the

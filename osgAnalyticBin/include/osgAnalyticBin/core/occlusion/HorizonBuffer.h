@@ -22,7 +22,7 @@ namespace osgAnalyticBin::core {
 /// equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
 /// All points are in the frame of the eye: the eye is the origin, x points to the right, y points forward, and z points
 /// up along the eye's vertical. A point is at x = right / forward, y = up / forward in the picture.
-/// Source: doc/theory/occlusion.md, sections 1 and 4.
+/// Source: doc/theory/occlusion.md, sections 1, 4 and 8.
 class HorizonBuffer final {
 public:
     /// Strips of the picture.
@@ -71,6 +71,15 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
+    /// Sorts all earth that was added, for hidesInAnyOrder(). Neither add() nor hides() may be called afterwards.
+    void sort();
+    [[nodiscard]] bool isSorted() const noexcept { return !_firstSteps.empty(); }
+
+    /// As hides(), for bodies in any order. Requires: isSorted().
+    /// Guarantee: true is a proof, rounding included; tests: SortedEarth.*.
+    /// Cost: a search among some ten numbers per strip that the body spans.
+    [[nodiscard]] bool hidesInAnyOrder(const Outline& body) const noexcept;
+
     /// Whether no line of sight to a body may meet terrain in front of the near plane: see setLowest().
     [[nodiscard]] bool isAboveLowest(const Outline& body) const noexcept { return body.heights.lower >= _lowest; }
 
@@ -82,8 +91,6 @@ public:
     [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
 
 private:
-    friend class HorizonProfile;
-
     // The picture of an upright quadrilateral of earth: kernels::WallRow says what the numbers are.
     using Wall = std::array<double, 8>;
     // Walls that are not in the strips yet wait in lists, one for each range of distances.
@@ -96,6 +103,11 @@ private:
 
     struct Strips {
         std::size_t first, last;  // the one behind the last
+    };
+    // What sorted earth up to a distance covers in a strip.
+    struct Step {
+        double farthest;
+        Interval heights;
     };
 
     [[nodiscard]] static std::size_t rangeOf(double distance) noexcept;
@@ -117,7 +129,9 @@ private:
     std::array<std::int32_t, kRanges> _lists;
     std::size_t _nearestList = kRanges;  // those before it are empty
     std::array<double, kStrips> _lower,
-        _upper;  // ends of the covered interval; nothing is covered where _lower > _upper
+        _upper;                            // ends of the covered interval; nothing is covered where _lower > _upper
+    std::vector<Step> _steps;              // strip by strip, by distance
+    std::vector<std::size_t> _firstSteps;  // of the strips, and their end; empty: not sorted
 };
 
 }  // namespace osgAnalyticBin::core

@@ -6,7 +6,7 @@
 
 #include "OcclusionScene.h"
 
-#include <osgAnalyticBin/core/occlusion/HorizonProfile.h>
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -20,15 +20,19 @@ namespace {
 
 using core::BinBall;
 using core::HorizonBuffer;
-using core::HorizonProfile;
 
 constexpr int kRaysOfAll = 24;
 constexpr int kBallsInScene = 60;
 
-HorizonProfile profileOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0)) {
+HorizonBuffer sorted(HorizonBuffer buffer) {
+    buffer.sort();
+    return buffer;
+}
+
+HorizonBuffer earthOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0)) {
     HorizonBuffer buffer = bufferOf(scene, eyes);
     for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
-    return HorizonProfile(std::move(buffer));
+    return sorted(buffer);
 }
 
 // A ball somewhere about the terrain, often near its surface, in ECEF.
@@ -53,17 +57,17 @@ bool isUnseen(Random& random, const OcclusionScene& scene, const BinBall& ball) 
     return true;
 }
 
-TEST(HorizonProfile, HidesNoBallThatARayReaches) {
+TEST(SortedEarth, HidesNoBallThatARayReaches) {
     Random random(1730);
     int hidden = 0, unseen = 0;
     for (int i = 0; i < 60; ++i) {
         const OcclusionScene scene(random, true, i % 4 == 0);
-        const HorizonProfile profile = profileOf(scene);
+        const HorizonBuffer earth = earthOf(scene);
         for (int k = 0; k < kBallsInScene; ++k) {
             const BinBall ball = randomBall(random, scene);
-            const HorizonBuffer::Outline outline = profile.outlineOf(inFrame(ball, frameOf(scene)));
+            const HorizonBuffer::Outline outline = earth.outlineOf(inFrame(ball, frameOf(scene)));
             const bool isOutOfSight = isUnseen(random, scene, ball);
-            if (profile.hides(outline)) {
+            if (earth.hidesInAnyOrder(outline)) {
                 ++hidden;
                 ASSERT_TRUE(isOutOfSight) << "scene " << i << ", ball " << k;
             }
@@ -74,17 +78,17 @@ TEST(HorizonProfile, HidesNoBallThatARayReaches) {
     EXPECT_GT(2 * hidden, unseen);
 }
 
-TEST(HorizonProfile, HidesNoBallThatARayReachesFromAnyOfTheEyes) {
+TEST(SortedEarth, HidesNoBallThatARayReachesFromAnyOfTheEyes) {
     Random random(1731);
     int hidden = 0;
     for (int i = 0; i < 60; ++i) {
         const OcclusionScene scene(random);
         const glm::dvec3 eyes = randomEyes(random, scene);
-        const HorizonProfile profile = profileOf(scene, eyes);
+        const HorizonBuffer earth = earthOf(scene, eyes);
         OcclusionScene moved = scene;
         for (int k = 0; k < kBallsInScene; ++k) {
             const BinBall ball = randomBall(random, scene);
-            if (!profile.hides(profile.outlineOf(inFrame(ball, frameOf(scene))))) continue;
+            if (!earth.hidesInAnyOrder(earth.outlineOf(inFrame(ball, frameOf(scene))))) continue;
             ++hidden;
             for (int eye = 0; eye < 3; ++eye) {
                 if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
@@ -96,25 +100,25 @@ TEST(HorizonProfile, HidesNoBallThatARayReachesFromAnyOfTheEyes) {
 }
 
 // The buffer, asked front to back, knows as much.
-TEST(HorizonProfile, HidesWhatTheBufferHides) {
+TEST(SortedEarth, HidesWhatTheBufferHides) {
     Random random(1732);
     int hidden = 0;
     for (int i = 0; i < 30; ++i) {
         const OcclusionScene scene(random, false);
         HorizonBuffer buffer = bufferOf(scene);
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
-        const HorizonProfile profile(buffer);
+        const HorizonBuffer earth = sorted(buffer);
         for (const auto& [part, outline] : frontToBack(scene, buffer)) {
             const bool isHidden = buffer.hides(outline);
             hidden += isHidden;
-            EXPECT_EQ(profile.hides(outline), isHidden);
+            EXPECT_EQ(earth.hidesInAnyOrder(outline), isHidden);
         }
     }
     EXPECT_GT(hidden, 30);
 }
 
 // Points of the ball are in its outline, for all eyes, and the outline is no wider than that of a cube.
-TEST(HorizonProfile, OutlinesOfBallsAreTightAndHoldThem) {
+TEST(SortedEarth, OutlinesOfBallsAreTightAndHoldThem) {
     Random random(1733);
     for (int i = 0; i < 2000; ++i) {
         const double size = random.chance(0.5) ? 0.0 : 5.0;
@@ -139,22 +143,22 @@ TEST(HorizonProfile, OutlinesOfBallsAreTightAndHoldThem) {
 }
 
 // Lines of sight that may meet terrain in front of the near plane.
-TEST(HorizonProfile, HidesNothingBelowTheLowestLine) {
+TEST(SortedEarth, HidesNothingBelowTheLowestLine) {
     Random random(1734);
     int above = 0, below = 0;
     for (int i = 0; i < 10; ++i) {
         const OcclusionScene scene(random, false);
         HorizonBuffer buffer = bufferOf(scene);
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
-        const HorizonProfile all(buffer);
+        const HorizonBuffer all = sorted(buffer);
         const double lowest = -0.05;
         buffer.setLowest(lowest);
-        const HorizonProfile cut(buffer);
+        const HorizonBuffer cut = sorted(buffer);
         for (int k = 0; k < kBallsInScene; ++k) {
             const auto outline = all.outlineOf(inFrame(randomBall(random, scene), frameOf(scene)));
             const bool isAbove = outline.heights.lower >= lowest;
-            EXPECT_EQ(cut.hides(outline), all.hides(outline) && isAbove);
-            if (all.hides(outline)) ++(isAbove ? above : below);
+            EXPECT_EQ(cut.hidesInAnyOrder(outline), all.hidesInAnyOrder(outline) && isAbove);
+            if (all.hidesInAnyOrder(outline)) ++(isAbove ? above : below);
         }
     }
     EXPECT_GT(above, 0);
