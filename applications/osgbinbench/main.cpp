@@ -14,7 +14,7 @@
 #include "Output.h"
 #include "PoseBench.h"
 #include "ProgramRun.h"
-#include "ReportCommand.h"
+#include "Report.h"
 #include "ScaleCommand.h"
 #include "TextFile.h"
 
