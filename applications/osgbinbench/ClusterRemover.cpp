@@ -10,74 +10,47 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace osgAnalyticBin::bench {
 
 namespace {
 
+using Visit = std::function<void(osg::Node&)>;
+
 /// Visits all nodes of a graph, masked ones too, but nothing below tiles of osgTerrain: one that is traversed before
 /// its first update never finds its Terrain.
-class NodeWalk : public osg::NodeVisitor {
+class NodeWalk final : public osg::NodeVisitor {
 public:
-    NodeWalk() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+    explicit NodeWalk(Visit visit) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _visit(std::move(visit)) {
+        setNodeMaskOverride(~0U);
+    }
 
     using osg::NodeVisitor::apply;
     void apply(osg::Node& node) override {
-        visit(node);
+        _visit(node);
         if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
     }
 
-protected:
-    virtual void visit(osg::Node& node) = 0;
-};
-
-class Remover : public NodeWalk {
-public:
-    std::size_t removed = 0;
-
 private:
-    void visit(osg::Node& node) override {
-        while (osg::ClusterCullingCallback* const cluster = clusterCallbackOf(node)) {
-            node.removeCullCallback(cluster);
-            ++removed;
-        }
-    }
+    const Visit _visit;
 };
 
-class Counter : public NodeWalk {
-public:
-    std::size_t count = 0;
+void forAllNodes(osg::Node& graph, Visit visit) {
+    NodeWalk walk(std::move(visit));
+    graph.accept(walk);
+}
 
-private:
-    void visit(osg::Node& node) override { count += clusterCallbackOf(node) ? 1U : 0U; }
-};
-
-class GlobeFinder : public NodeWalk {
-public:
+osg::ref_ptr<osg::EllipsoidModel> ellipsoidOf(osg::Node& graph) {
     osg::ref_ptr<osg::EllipsoidModel> ellipsoid;
-
-private:
-    void visit(osg::Node& node) override {
+    forAllNodes(graph, [&](osg::Node& node) {
         auto* const globe = dynamic_cast<osg::CoordinateSystemNode*>(&node);
         if (!globe || ellipsoid) return;
         ellipsoid = globe->getEllipsoidModel() ? globe->getEllipsoidModel() : new osg::EllipsoidModel;
-    }
-};
-
-class ExpiryWalk : public NodeWalk {
-public:
-    explicit ExpiryWalk(double seconds) : _seconds(seconds) {}
-
-private:
-    void visit(osg::Node& node) override {
-        auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
-        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
-            if (!paged->getFileName(i).empty())
-                paged->setMinimumExpiryTime(i, std::max(_seconds, paged->getMinimumExpiryTime(i)));
-    }
-
-    double _seconds;
-};
+    });
+    return ellipsoid;
+}
 
 }  // namespace
 
@@ -89,15 +62,20 @@ osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
 }
 
 std::size_t removeClusterCallbacks(osg::Node& graph) {
-    Remover remover;
-    graph.accept(remover);
-    return remover.removed;
+    std::size_t removed = 0;
+    forAllNodes(graph, [&](osg::Node& node) {
+        while (osg::ClusterCullingCallback* const cluster = clusterCallbackOf(node)) {
+            node.removeCullCallback(cluster);
+            ++removed;
+        }
+    });
+    return removed;
 }
 
 std::size_t countClusterCallbacks(osg::Node& graph) {
-    Counter counter;
-    graph.accept(counter);
-    return counter.count;
+    std::size_t count = 0;
+    forAllNodes(graph, [&](osg::Node& node) { count += clusterCallbackOf(node) ? 1U : 0U; });
+    return count;
 }
 
 void ClusterRemover::setTreatment(Clusters treatment, const osg::EllipsoidModel* globe) {
@@ -114,13 +92,14 @@ ClusterRemover::Result ClusterRemover::readNode(const std::string& fileName, con
 }
 
 void ClusterRemover::fill(osg::Node& graph) {
-    GlobeFinder finder;
-    graph.accept(finder);
+    const osg::ref_ptr<osg::EllipsoidModel> own = ellipsoidOf(graph);
     osg::ref_ptr<const osg::EllipsoidModel> pageOf;
     {
         const std::lock_guard lock(_mutex);
-        if (!finder.ellipsoid) pageOf = _ellipsoid;
-        if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
+        if (own)
+            _ellipsoid = own;
+        else
+            pageOf = _ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
     if (_treatment == Clusters::FillForRaster) peers().prepareTiles(graph, pageOf.get());
@@ -128,8 +107,14 @@ void ClusterRemover::fill(osg::Node& graph) {
 
 ExpiryRaiser::Result ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {
     Result result = ReadInFront::readNode(fileName, options);
-    ExpiryWalk walk(_seconds);
-    if (result.getNode() && _seconds > 0.0) result.getNode()->accept(walk);
+    const double seconds = _seconds;
+    if (!result.getNode() || !(seconds > 0.0)) return result;
+    forAllNodes(*result.getNode(), [seconds](osg::Node& node) {
+        auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
+            if (!paged->getFileName(i).empty())
+                paged->setMinimumExpiryTime(i, std::max(seconds, paged->getMinimumExpiryTime(i)));
+    });
     return result;
 }
 

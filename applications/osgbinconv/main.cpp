@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CommandLine.h"
 #include "Commands.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
 
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 #include <osg/Notify>
 
 #include <algorithm>
@@ -57,38 +55,35 @@ struct Arguments {
     osgbinconv::WalkOptions walk;
 };
 
-void declare(CLI::App& app, Arguments& arguments) {
-    arguments.walk.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    app.footer(kExamples);
-    auto* index = app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
-    auto* print = app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
-    auto* check = app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
-    index->excludes(print)->excludes(check);
-    print->excludes(check);
-    app.add_flag("--keep-records", arguments.keepsRecords,
-                 "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have "
-                 "changed since")
-        ->needs(index);
-    app.add_option("FILE", arguments.files,
-                   "the root file of a database; with --print also an index; then the root file of a copy, *.osgb")
-        ->required();
-    app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
-    app.add_option("--cluster", arguments.cluster,
-                   "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
-                   "(default remove)")
-        ->check(CLI::IsMember({"remove", "keep"}));
-    app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)")
-        ->check(CLI::Range(1, 256));
-    app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
+void declare(osgAnalyticBin::support::CommandLine& line, Arguments& arguments) {
+    line.add("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
+    line.add("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
+    line.add("--check", arguments.isCheck, "compare DATABASE.bins with the database");
+    line.add("--keep-records", arguments.keepsRecords,
+             "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
+             "since");
+    line.addAll("FILE", arguments.files,
+                "the root file of a database; with --print also an index; then the root file of a copy, *.osgb");
+    line.add("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
+    line.add("--cluster", arguments.cluster,
+             "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
+             "(default remove)");
+    line.add("--threads", arguments.walk.threads, 1, 256, "number of threads (default: one per core)");
+    line.add("--quiet", arguments.walk.isQuiet, "show no progress");
 }
 
 void requireSense(const Arguments& arguments) {
-    const bool isCopy = !arguments.isIndex && !arguments.isPrint && !arguments.isCheck;
-    if (isCopy && arguments.files.size() == 1) {
+    const int commands = arguments.isIndex + arguments.isPrint + arguments.isCheck;
+    if (arguments.files.empty()) throw UsageError("FILE is required; see osgbinconv --help");
+    if (commands > 1) throw UsageError("--index, --print and --check exclude each other; see osgbinconv --help");
+    if (arguments.keepsRecords && !arguments.isIndex) throw UsageError("--keep-records: is for --index");
+    if (arguments.cluster != "remove" && arguments.cluster != "keep")
+        throw UsageError("--cluster: " + arguments.cluster + " is neither remove nor keep");
+    if (commands == 0 && arguments.files.size() == 1) {
         throw UsageError("nothing to do with \"" + arguments.files.front() +
                          "\"; give --index, --print, --check or the root file of a copy");
     }
-    const std::size_t most = isCopy ? 2 : 1;
+    const std::size_t most = commands == 0 ? 2 : 1;
     if (arguments.files.size() > most) {
         throw UsageError("one file too many on the command line, \"" + arguments.files[most] +
                          "\"; see osgbinconv --help");
@@ -105,10 +100,10 @@ void prepareProcess() {
 
 ExitCode run(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{kDescription, "osgbinconv"};
-    app.set_version_flag("--version", std::string("osgbinconv (osgAnalyticBin) ") + osgAnalyticBin::version());
-    declare(app, arguments);
-    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return kSucceeded;
+    arguments.walk.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+    osgAnalyticBin::support::CommandLine line("osgbinconv", kDescription, kExamples);
+    declare(line, arguments);
+    if (!line.parse(argc, argv)) return kSucceeded;
     requireSense(arguments);
     prepareProcess();
     const std::string& file = arguments.files.front();

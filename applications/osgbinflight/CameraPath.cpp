@@ -228,15 +228,13 @@ std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std
     return joined;
 }
 
-void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns) {
-    const bool isInTime = columns == PathColumns::PosesInTime;
+void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path) {
     const bool havePlanes =
         std::any_of(path.begin(), path.end(), [](const CameraPose& pose) { return pose.hasPlanes(); });
     out.precision(std::numeric_limits<double>::max_digits10);
     out << kNameColumn;
     for (std::size_t i = EyeLat; i <= (havePlanes ? Far : Fov); ++i) out << ',' << kNumbers[i].name;
-    if (isInTime) out << ',' << kNumbers[Time].name << ',' << kNumbers[Roll].name;
-    out << '\n';
+    out << ',' << kNumbers[Time].name << ',' << kNumbers[Roll].name << '\n';
     std::size_t number = 0;
     for (const CameraPose& pose : path) {
         ++number;
@@ -247,15 +245,13 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, Pat
         }
         out << ',' << pose.verticalFov * kDegreesPerRadian;
         if (havePlanes) out << ',' << pose.nearPlane << ',' << pose.farPlane;
-        if (isInTime) out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian;
-        out << '\n';
+        out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian << '\n';
     }
 }
 
-bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path, PathColumns columns,
-                         std::string& error) {
+bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path, std::string& error) {
     std::ostringstream text;
-    writeCameraPath(text, path, columns);
+    writeCameraPath(text, path);
     return support::replaceFile(fileName, text.str(), error);
 }
 

@@ -50,19 +50,13 @@ struct CameraPose {
 [[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std::string>& fileNames,
                                                                          std::string& error);
 
-/// Which columns a camera path has.
-enum class PathColumns {
-    Poses,       ///< name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, and near and far
-    PosesInTime  ///< and time, rollDeg
-};
-
 /// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
 /// a name are flight1, flight2 and so on; `eyeRight` is not written.
-void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns);
+void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path);
 
 /// Replaces a file when the new one is complete. Returns: false, with one line in `error`, when that fails; what was
 /// there before stays.
 [[nodiscard]] bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path,
-                                       PathColumns columns, std::string& error);
+                                       std::string& error);
 
 }  // namespace osgAnalyticBin::flight

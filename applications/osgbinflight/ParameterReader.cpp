@@ -11,50 +11,61 @@
 
 namespace osgAnalyticBin::flight {
 
-bool setNumber(double& target, const std::string& value, double least, double most) {
-    const auto number = numberFrom(value);
-    if (!number || !(*number >= least && *number <= most)) return false;
-    target = *number;
-    return true;
-}
+namespace {
 
-bool setWhole(int& target, const std::string& value, int least, int most) {
-    double number = 0.0;
-    if (!setNumber(number, value, least, most) || number != std::floor(number)) return false;
-    target = static_cast<int>(number);
-    return true;
-}
-
-Applied ParameterReader::applyItem(const std::string& item) const {
+bool read(const std::vector<Parameter>& known, const std::string& item, bool isUnknownAllowed, std::string& error) {
     const std::size_t equals = item.find('=');
+    const std::string key = trimmed(item.substr(0, equals));
     const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
-    return _apply(trimmed(item.substr(0, equals)), value);
-}
-
-std::string ParameterReader::complaint(const std::string& item, const char* what) const {
-    return std::string(what) + " parameter \"" + item + "\"; allowed are " + _allowed;
-}
-
-bool ParameterReader::readBracketed(const std::string& parameters, std::string& error) const {
-    std::istringstream items(parameters);
-    for (std::string item; std::getline(items, item, ',');) {
-        const Applied applied = applyItem(item);
-        if (applied == Applied::Yes) continue;
-        error = complaint(trimmed(item), applied == Applied::Unknown ? "unknown" : "malformed");
-        return false;
+    std::string allowed;
+    for (const Parameter& parameter : known) {
+        const std::string text = parameter.text;
+        allowed += (allowed.empty() ? "" : ", ") + text;
+        if (text.substr(0, text.find('=')) != key) continue;
+        if (parameter.take(value)) return true;
+        error = "malformed";
     }
+    if (error.empty() && isUnknownAllowed) return true;
+    if (error.empty()) error = "unknown";
+    error += " parameter \"" + trimmed(item) + "\"; allowed are " + allowed;
+    return false;
+}
+
+}  // namespace
+
+std::function<bool(const std::string&)> numberInto(double& target, double least, double most) {
+    return [&target, least, most](const std::string& value) {
+        const auto number = numberFrom(value);
+        if (!number || !(*number >= least && *number <= most)) return false;
+        target = *number;
+        return true;
+    };
+}
+
+std::function<bool(const std::string&)> wholeInto(int& target, int least, int most) {
+    return [&target, least, most](const std::string& value) {
+        double number = 0.0;
+        if (!numberInto(number, least, most)(value) || number != std::floor(number)) return false;
+        target = static_cast<int>(number);
+        return true;
+    };
+}
+
+bool readBracketed(const std::vector<Parameter>& known, const std::string& text, std::string& error) {
+    error.clear();
+    std::istringstream items(text);
+    for (std::string item; std::getline(items, item, ',');)
+        if (!read(known, item, false, error)) return false;
     return true;
 }
 
-bool ParameterReader::readOptionString(const std::string& options, std::string& error) const {
-    std::string blanks = options;
+bool readOptionString(const std::vector<Parameter>& known, const std::string& text, std::string& error) {
+    error.clear();
+    std::string blanks = text;
     std::replace(blanks.begin(), blanks.end(), ',', ' ');
     std::istringstream items(blanks);
-    for (std::string item; items >> item;) {
-        if (applyItem(item) != Applied::Malformed) continue;
-        error = complaint(item, "malformed");
-        return false;
-    }
+    for (std::string item; items >> item;)
+        if (!read(known, item, true, error)) return false;
     return true;
 }
 

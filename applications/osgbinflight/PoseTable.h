@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +43,5 @@ inline constexpr const char* kPoseTableName = "poses.csv";
 /// Returns: false, with one line in `error`, when that fails.
 [[nodiscard]] bool writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records,
                                   const std::string& remark, std::string& error);
-
-/// Returns: nullopt, with one line in `error`, when there is no such file or a line is broken.
-[[nodiscard]] std::optional<std::vector<PoseRecord>> readPoseTable(const std::string& folder, std::string& error);
 
 }  // namespace osgAnalyticBin::flight

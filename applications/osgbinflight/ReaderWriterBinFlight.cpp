@@ -30,9 +30,7 @@ public:
         supportsExtension("binflight",
                           "Camera path: path.csv.(out=DIR,frames=15,timeout=120).binflight flies the viewer along "
                           "path.csv, and leaves pictures and poses.csv in DIR");
-        supportsOption("out=DIR", "Folder of the pictures and of poses.csv (default: binflight)");
-        supportsOption("frames=N", "Frames whose cull time is measured at each pose (default: 15)");
-        supportsOption("timeout=SECONDS", "Longest time that one pose may take (default: 120)");
+        for (const auto& parameter : FlightOptions().parameters()) supportsOption(parameter.text, parameter.meaning);
     }
 
     const char* className() const override { return "Camera path of osgAnalyticBin"; }
@@ -49,9 +47,10 @@ public:
 
         FlightOptions flightOptions;
         std::string error;
-        if (options && !osgAnalyticBin::flight::applyOptionString(options->getOptionString(), flightOptions, error))
+        const auto parameters = flightOptions.parameters();
+        if (options && !osgAnalyticBin::flight::readOptionString(parameters, options->getOptionString(), error))
             return ReadResult(error);
-        if (!osgAnalyticBin::flight::applyParameters(name.parameters, flightOptions, error)) return ReadResult(error);
+        if (!osgAnalyticBin::flight::readBracketed(parameters, name.parameters, error)) return ReadResult(error);
         auto path = osgAnalyticBin::flight::readCameraPathFile(pathFile, error);
         if (!path) return ReadResult(error);
         return ReadResult(nodeOf(std::move(*path), flightOptions).get());

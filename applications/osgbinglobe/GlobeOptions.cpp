@@ -7,38 +7,14 @@
 
 #include <osgAnalyticBin/NameParameters.h>
 
-#include <ParameterReader.h>
 #include <cstdio>
 
 namespace osgAnalyticBin::globe {
 
 namespace {
 
-using flight::Applied;
-using flight::applied;
-using flight::setNumber;
-using flight::setWhole;
 using flight::textFrom;
 using osgbindem::TileId;
-
-bool setSwitch(bool& target, const std::string& value) {
-    target = value == "on";
-    return target || value == "off";
-}
-
-flight::ParameterReader readerInto(GlobeOptions& options) {
-    const auto apply = [&options](const std::string& key, const std::string& value) {
-        if (key == "levels") return applied(setWhole(options.levels, value, 0, GlobeOptions::kMostLevels));
-        if (key == "cells")
-            return applied(setWhole(options.cells, value, 2, GlobeOptions::kMostCells) && options.cells % 2 == 0);
-        if (key == "relief") return applied(setNumber(options.relief, value, 0.0, GlobeOptions::kMostRelief));
-        if (key == "lod")
-            return applied(setNumber(options.lod, value, GlobeOptions::kLeastLod, GlobeOptions::kMostLod));
-        if (key == "bins") return applied(setSwitch(options.bins, value));
-        return Applied::Unknown;
-    };
-    return {apply, kAllowedParameters};
-}
 
 // One line that says whose parameters they are.
 std::string ofGlobe(const std::string& message) {
@@ -68,24 +44,45 @@ bool GlobeOptions::operator==(const GlobeOptions& other) const {
            bins == other.bins;
 }
 
+std::vector<flight::Parameter> GlobeOptions::parameters() {
+    const auto takeCells = [this](const std::string& value) {
+        return flight::wholeInto(cells, 2, kMostCells)(value) && cells % 2 == 0;
+    };
+    const auto takeBins = [this](const std::string& value) {
+        bins = value == "on";
+        return bins || value == "off";
+    };
+    return {{"levels=0..24",
+             "Levels below the 16 x 8 start tiles (default: 12). From some 20 on OSG measures the distances at which "
+             "tiles are refined in steps of half a metre.",
+             flight::wholeInto(levels, 0, kMostLevels)},
+            {"cells=2..64", "Cells along a tile's edge, an even number (default: 16)", takeCells},
+            {"relief=0..20000", "Metres from the lowest terrain there may be to the highest (default: 8000)",
+             flight::numberInto(relief, 0.0, kMostRelief)},
+            {"lod=1..100", "Half diagonals of a tile from which on it is refined (default: 4)",
+             flight::numberInto(lod, kLeastLod, kMostLod)},
+            {"bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)", takeBins}};
+}
+
 std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString, std::string& error) {
     const std::string file = withoutFolder(fileName);
     const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
     GlobeName result;
-    const flight::ParameterReader reader = readerInto(result.options);
+    const auto known = result.options.parameters();
     result.tile = tileFrom(parts.name);
     if (!result.tile) {
-        if (!reader.readOptionString(optionString, error)) {
+        if (!flight::readOptionString(known, optionString, error)) {
             error = ofGlobe(error);
             return std::nullopt;
         }
-        if (!parts.name.empty() && !setWhole(result.options.levels, parts.name, 0, GlobeOptions::kMostLevels)) {
+        if (!parts.name.empty() &&
+            !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name)) {
             error = std::string(kGlobeExtension) + ": \"" + parts.name +
                     "\" is no number of levels; give 0 to 24, for example 12." + kGlobeExtension;
             return std::nullopt;
         }
     }
-    if (!reader.readBracketed(parts.parameters, error)) {
+    if (!flight::readBracketed(known, parts.parameters, error)) {
         error = ofGlobe(error);
         return std::nullopt;
     }
@@ -95,9 +92,7 @@ std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::str
     return std::nullopt;
 }
 
-namespace {
-
-std::string parametersOf(const GlobeOptions& options) {
+std::string rootFileOf(const GlobeOptions& options) {
     const GlobeOptions usual;
     std::string text = "(levels=" + std::to_string(options.levels);
     if (options.cells != usual.cells) text += ",cells=" + std::to_string(options.cells);
@@ -107,15 +102,9 @@ std::string parametersOf(const GlobeOptions& options) {
     return text + ")." + kGlobeExtension;
 }
 
-}  // namespace
-
 std::string childrenFileOf(const TileId& tile, const GlobeOptions& options) {
     return std::to_string(tile.level) + '-' + std::to_string(tile.x) + '-' + std::to_string(tile.y) + '.' +
-           parametersOf(options);
-}
-
-std::string rootFileOf(const GlobeOptions& options) {
-    return parametersOf(options);
+           rootFileOf(options);
 }
 
 }  // namespace osgAnalyticBin::globe

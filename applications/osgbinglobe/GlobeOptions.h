@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <ParameterReader.h>
 #include <TileLayout.h>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin::globe {
 
@@ -25,11 +27,12 @@ struct GlobeOptions {
     static constexpr double kMostLod = 100.0;
 
     [[nodiscard]] bool operator==(const GlobeOptions& other) const;
+
+    /// What reads the parameters of a file's name into these.
+    [[nodiscard]] std::vector<flight::Parameter> parameters();
 };
 
 inline constexpr const char* kGlobeExtension = "proceduralglobe";
-inline constexpr const char* kAllowedParameters =
-    "levels=0..24, cells=2..64 (even), relief=0..20000 (metres), lod=1..100, bins=on|off";
 
 /// What a file name asks for.
 struct GlobeName {

@@ -19,13 +19,8 @@ public:
         supportsExtension(osgAnalyticBin::globe::kGlobeExtension,
                           "Paged globe of terrain made by a formula (pseudo-loader): 12.proceduralglobe or "
                           "(levels=12,cells=16).proceduralglobe");
-        supportsOption("levels=0..24",
-                       "Levels below the 16 x 8 start tiles (default: 12). From some 20 on OSG measures the distances "
-                       "at which tiles are refined in steps of half a metre.");
-        supportsOption("cells=2..64", "Cells along a tile's edge, an even number (default: 16)");
-        supportsOption("relief=0..20000", "Metres from the lowest terrain there may be to the highest (default: 8000)");
-        supportsOption("lod=1..100", "Half diagonals of a tile from which on it is refined (default: 4)");
-        supportsOption("bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)");
+        for (const auto& parameter : osgAnalyticBin::globe::GlobeOptions().parameters())
+            supportsOption(parameter.text, parameter.meaning);
     }
 
     const char* className() const override { return "procedural globe pseudo-loader"; }

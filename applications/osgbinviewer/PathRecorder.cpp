@@ -91,7 +91,7 @@ void PathRecorder::setRecording(bool recording) {
 void PathRecorder::write() {
     if (_isWritten) return;
     std::string error;
-    const bool isGood = flight::writeCameraPathFile(_fileName, _path, flight::PathColumns::PosesInTime, error);
+    const bool isGood = flight::writeCameraPathFile(_fileName, _path, error);
     _isWritten = true;
     if (!isGood) OSG_WARN << "PathRecorder: " << error << std::endl;
 }

@@ -6,24 +6,10 @@
 #include "Failure.h"
 #include "Interruption.h"
 
-#include <CLI/CLI.hpp>
-
 #include <exception>
 #include <iostream>
 
 namespace osgAnalyticBin::support {
-
-bool parseCommandLine(CLI::App& app, int argc, const char* const* argv) {
-    try {
-        app.parse(argc, argv);
-        return true;
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0)
-            throw UsageError(std::string(error.what()) + "; see " + app.get_name() + " --help");
-        (void)app.exit(error);
-        return false;
-    }
-}
 
 ExitCode runProgram(const std::string& name, const std::function<ExitCode()>& run) {
     const auto complain = [&name](const std::exception& error, ExitCode code) {

@@ -3,8 +3,12 @@
 
 #include "Report.h"
 
+#include "CommandLine.h"
+#include "CsvTable.h"
+#include "Failure.h"
 #include "PathGroups.h"
 #include "PictureDifference.h"
+#include "PoseTable.h"
 #include "Table.h"
 #include "TextFile.h"
 
@@ -13,104 +17,97 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <ostream>
+#include <fstream>
+#include <iostream>
+#include <numeric>
 
 namespace osgAnalyticBin::report {
 
 namespace {
 
-using flight::PoseRecord;
 using support::withDecimals;
 
 constexpr const char* kRatioBase = "sphere";
 
-/// A figure of a flight at one pose, or its sum.
 struct Column {
     const char* title;
+    const char* name;  // in poses.csv
     int decimals;
-    double (*value)(const Flight& run, std::size_t pose);
 };
 
-template <auto Count>
-double tiles(const Flight& run, std::size_t pose) {
-    return static_cast<double>(run.poses[pose].tiles.*Count);
+constexpr std::array<Column, 7> kColumns{{{"tested", "tilesTested", 0},
+                                          {"kept", "tilesKept", 0},
+                                          {"drawn", "tilesDrawn", 0},
+                                          {"triangles", "triangles", 0},
+                                          {"files", "files", 0},
+                                          {"cull ms", "cullMs", 3},
+                                          {"frame ms", "frameMs", 2}}};
+
+double sumOf(const std::vector<double>& numbers, const PathGroup& group) {
+    return std::accumulate(group.poses.begin(), group.poses.end(), 0.0,
+                           [&](double sum, std::size_t pose) { return sum + numbers[pose]; });
 }
 
-using flight::TileCounts;
-
-constexpr std::array<Column, 8> kColumns{
-    {{"tested", 0, tiles<&TileCounts::tested>},
-     {"kept", 0, tiles<&TileCounts::kept>},
-     {"drawn", 0, tiles<&TileCounts::drawn>},
-     {"triangles", 0, tiles<&TileCounts::triangles>},
-     {"files", 0, [](const Flight& run, std::size_t pose) { return static_cast<double>(run.poses[pose].files); }},
-     {"cull ms", 3, [](const Flight& run, std::size_t pose) { return run.poses[pose].cullMs; }},
-     {"frame ms", 2, [](const Flight& run, std::size_t pose) { return run.poses[pose].frameMs; }},
-     {"diff. pixels", 0,
-      [](const Flight& run, std::size_t pose) { return static_cast<double>(run.differingPixels[pose]); }}}};
-
-using Figures = std::array<double, kColumns.size()>;
-
-Figures sumOf(const Flight& run, const std::vector<std::size_t>& poses) {
-    Figures sum{};
-    for (const std::size_t pose : poses)
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += kColumns[i].value(run, pose);
-    return sum;
-}
-
-std::vector<std::string> lineOf(const std::string& title, const std::string& label, const Figures& figures) {
-    std::vector<std::string> cells{title, label};
-    for (std::size_t i = 0; i < figures.size(); ++i) cells.push_back(withDecimals(figures[i], kColumns[i].decimals));
-    return cells;
-}
-
-// Of all but the pixels: a ratio of differing pixels says nothing.
-std::vector<std::string> ratioLineOf(const std::string& label, const Figures& figures, const Figures& base) {
-    std::vector<std::string> cells{"", label};
-    for (std::size_t i = 0; i + 1 < figures.size(); ++i) cells.push_back(ratioText(figures[i], base[i]));
-    return cells;
-}
-
-// In the order of the path; poses that stand alone are no group.
-std::vector<PathGroup> groupsOf(const std::vector<PoseRecord>& poses) {
-    std::vector<std::string> names;
-    for (const PoseRecord& pose : poses) names.push_back(pose.name);
-    std::vector<PathGroup> groups = pathGroupsOf(names);
-    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const PathGroup& g) { return g.poses.size() < 2; }),
-                 groups.end());
-    return groups;
-}
-
-PathGroup allOf(const std::vector<PoseRecord>& poses) {
-    PathGroup all{"all poses", {}};
-    for (std::size_t i = 0; i < poses.size(); ++i) all.poses.push_back(i);
+PathGroup allOf(const std::vector<std::string>& poses) {
+    PathGroup all{"all poses", std::vector<std::size_t>(poses.size())};
+    std::iota(all.poses.begin(), all.poses.end(), std::size_t{0});
     return all;
 }
 
-void addSums(TextTable& table, const std::vector<Flight>& runs, const PathGroup& group) {
-    const std::string title = "sum of " + group.name + (group.name == "all poses" ? "" : "_*");
+void addLine(TextTable& table, const std::string& title, const Flight& flight, const PathGroup& group) {
+    std::vector<std::string> cells{title, flight.label};
+    for (const Column& column : kColumns)
+        cells.push_back(withDecimals(sumOf(flight.figures.at(column.name), group), column.decimals));
+    cells.push_back(withDecimals(sumOf(flight.differingPixels, group), 0));
+    table.add(std::move(cells));
+}
+
+void addSums(TextTable& table, const std::string& title, const std::vector<Flight>& flights, const PathGroup& group) {
     table.addGap();
-    for (const Flight& run : runs)
-        table.add(lineOf(&run == &runs.front() ? title : "", run.label, sumOf(run, group.poses)));
-    const auto base = std::find_if(runs.begin(), runs.end(), [](const Flight& run) { return run.label == kRatioBase; });
-    if (base == runs.end()) return;
-    const Figures baseSum = sumOf(*base, group.poses);
-    for (const Flight& run : runs)
-        if (&run != &*base) table.add(ratioLineOf(run.label + " / " + kRatioBase, sumOf(run, group.poses), baseSum));
+    for (const Flight& flight : flights) addLine(table, &flight == &flights.front() ? title : "", flight, group);
+    const auto base =
+        std::find_if(flights.begin(), flights.end(), [](const Flight& f) { return f.label == kRatioBase; });
+    for (const Flight& flight : flights) {
+        if (base == flights.end() || &flight == &*base) continue;
+        // of all but the pixels: a ratio of differing pixels says nothing
+        std::vector<std::string> cells{"", flight.label + " / " + kRatioBase};
+        for (const Column& column : kColumns)
+            cells.push_back(
+                ratioText(sumOf(flight.figures.at(column.name), group), sumOf(base->figures.at(column.name), group)));
+        table.add(std::move(cells));
+    }
 }
 
-bool isSound(const std::string& label) {
-    return label != "paper" && label != "corners";
-}
-
-std::string nameOf(const std::string& folder) {
-    const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
-    return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
-bool hasPosesOf(const Flight& reference, const Flight& run) {
-    return std::equal(reference.poses.begin(), reference.poses.end(), run.poses.begin(), run.poses.end(),
-                      [](const PoseRecord& a, const PoseRecord& b) { return a.name == b.name; });
+std::optional<Flight> flightFrom(const std::string& folder, std::string& error) {
+    namespace fs = std::filesystem;
+    const fs::path path = fs::path(folder).lexically_normal();
+    Flight flight{folder, (path.has_filename() ? path : path.parent_path()).filename().string(), {}, {}, {}, {}};
+    const std::string file = (fs::path(folder) / flight::kPoseTableName).string();
+    std::ifstream input(file);
+    if (!input) error = file + ": cannot be opened (did that flight fail?)";
+    const auto table = input ? flight::readCsv(input, file, error) : std::nullopt;
+    if (!table) return std::nullopt;
+    for (const flight::CsvTable::Row& row : table->rows) {
+        for (std::size_t i = 0; i < row.cells.size(); ++i) {
+            const std::string &column = table->columns[i], &cell = row.cells[i];
+            const auto number = flight::numberFrom(cell);
+            if (column == "name") {
+                flight.poses.push_back(cell);
+            } else if (column == "picture") {
+                flight.pictures.push_back(cell);
+            } else if (number && *number >= 0.0) {
+                flight.figures[column].push_back(*number);
+            } else {
+                error = flight::atLine(*table, row, column + " is \"" + cell + "\", not a number from 0 on");
+                return std::nullopt;
+            }
+        }
+    }
+    bool isWhole = !flight.poses.empty() && !flight.pictures.empty();
+    for (const Column& column : kColumns) isWhole = isWhole && flight.figures.count(column.name) > 0;
+    if (!isWhole) error = file + ": no pose, or a column is missing";
+    flight.differingPixels.resize(flight.poses.size());
+    return isWhole ? std::optional(flight) : std::nullopt;
 }
 
 bool write(const PictureDifference& difference, const std::string& folder, const std::string& name,
@@ -123,64 +120,102 @@ bool write(const PictureDifference& difference, const std::string& folder, const
     return false;
 }
 
-bool comparePictures(const Flight& reference, Flight& run, const std::string& differenceFolder, std::string& error) {
-    for (std::size_t i = 0; i < run.poses.size(); ++i) {
+bool comparePictures(const Flight& reference, Flight& flight, const std::string& differenceFolder, std::string& error) {
+    for (std::size_t i = 0; i < flight.poses.size(); ++i) {
         const auto pathOf = [i](const Flight& of) {
-            return (std::filesystem::path(of.folder) / of.poses[i].picture).string();
+            return (std::filesystem::path(of.folder) / of.pictures[i]).string();
         };
-        const auto difference = compareFiles(pathOf(reference), pathOf(run), error);
+        const auto difference = compareFiles(pathOf(reference), pathOf(flight), error);
         if (!difference) return false;
-        run.differingPixels[i] = difference->pixels;
+        flight.differingPixels[i] = static_cast<double>(difference->pixels);
         if (difference->pixels > 0 && !differenceFolder.empty() &&
-            !write(*difference, differenceFolder, run.label + "_" + run.poses[i].name, error))
+            !write(*difference, differenceFolder, flight.label + "_" + flight.poses[i], error))
             return false;
     }
     return true;
 }
 
+constexpr const char* kFooter =
+    "Tiles: tested = the cull traversal reached the tile; kept = it reached what is below; drawn = its own\n"
+    "geometry was drawn. Files: node files read from the camera's arrival on. Cull, frame: milliseconds,\n"
+    "median; a frame is from one to the next, drawing included. Methods have the names of the folders.\n"
+    "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference,\n"
+    "or when a flight cannot be read; 2 when the command line is wrong.\n\n"
+    "Example:\n"
+    "  osgbinbench report demo/none demo/sphere demo/quadratic --difference demo/difference";
+
 }  // namespace
 
-std::optional<Report> Report::of(const std::vector<std::string>& folders, const std::vector<std::string>& labels,
-                                 const std::string& differenceFolder, std::string& error) {
+double Flight::sum(const std::string& column) const {
+    return sumOf(figures.at(column), allOf(poses));
+}
+
+std::optional<Report> Report::of(const std::vector<std::string>& folders, const std::string& differenceFolder,
+                                 std::string& error) {
     Report report;
-    for (std::size_t i = 0; i < folders.size(); ++i) {
-        auto poses = flight::readPoseTable(folders[i], error);
-        if (!poses) return std::nullopt;
-        Flight run{labels.empty() ? nameOf(folders[i]) : labels[i], folders[i], std::move(*poses), {}};
-        run.differingPixels.resize(run.poses.size());
-        if (i > 0 && !hasPosesOf(report._runs.front(), run)) {
-            error = folders[i] + ": its poses are not those of " + folders.front();
+    for (const std::string& folder : folders) {
+        auto flight = flightFrom(folder, error);
+        if (!flight) return std::nullopt;
+        const bool isReference = report._flights.empty();
+        if (!isReference && flight->poses != report._flights.front().poses) {
+            error = folder + ": its poses are not those of " + folders.front();
             return std::nullopt;
         }
-        if (i > 0 && !comparePictures(report._runs.front(), run, differenceFolder, error)) return std::nullopt;
-        report._runs.push_back(std::move(run));
+        if (!isReference && !comparePictures(report._flights.front(), *flight, differenceFolder, error))
+            return std::nullopt;
+        report._flights.push_back(std::move(*flight));
     }
     return report;
 }
 
 void Report::print(std::ostream& output) const {
-    if (_runs.empty()) return;
-    const std::vector<PoseRecord>& poses = _runs.front().poses;
+    if (_flights.empty()) return;
+    const std::vector<std::string>& poses = _flights.front().poses;
     TextTable table(2);
     std::vector<std::string> titles{"pose", "method"};
     for (const Column& column : kColumns) titles.emplace_back(column.title);
+    titles.emplace_back("diff. pixels");
     table.add(std::move(titles));
     for (std::size_t i = 0; i < poses.size(); ++i)
-        for (const Flight& run : _runs)
-            table.add(lineOf(&run == &_runs.front() ? poses[i].name : "", run.label, sumOf(run, {i})));
-    for (const PathGroup& group : groupsOf(poses)) addSums(table, _runs, group);
-    addSums(table, _runs, allOf(poses));
+        for (const Flight& flight : _flights)
+            addLine(table, &flight == &_flights.front() ? poses[i] : "", flight, {"", {i}});
+    for (const PathGroup& group : pathGroupsOf(poses))
+        if (group.poses.size() > 1) addSums(table, "sum of " + group.name + "_*", _flights, group);
+    addSums(table, "sum of all poses", _flights, allOf(poses));
     table.print(output);
 }
 
 std::vector<Mismatch> Report::mismatches() const {
     std::vector<Mismatch> found;
-    for (const Flight& run : _runs) {
-        if (!isSound(run.label)) continue;
-        for (std::size_t i = 0; i < run.poses.size(); ++i)
-            if (run.differingPixels[i] > 0) found.push_back({run.label, run.poses[i].name, run.differingPixels[i]});
+    for (const Flight& flight : _flights) {
+        if (flight.label == "paper" || flight.label == "corners") continue;
+        for (std::size_t i = 0; i < flight.poses.size(); ++i)
+            if (flight.differingPixels[i] > 0.0)
+                found.push_back({flight.label, flight.poses[i], flight.differingPixels[i]});
     }
     return found;
+}
+
+support::ExitCode run(int argc, char** argv) {
+    support::CommandLine line("osgbinbench report",
+                              "Compares flights over a database that were made with different culling methods.",
+                              kFooter);
+    std::vector<std::string> folders;
+    std::string differenceFolder;
+    line.addAll("DIR", folders, "Folders that flights left (poses.csv and pictures); the first is the reference");
+    line.add("--difference", differenceFolder, "Folder for pictures of the differences: differing pixels red");
+    if (!line.parse(argc, argv)) return support::kSucceeded;
+    if (folders.empty()) throw support::UsageError("DIR is required; see osgbinbench report --help");
+    std::string error;
+    const auto report = Report::of(folders, differenceFolder, error);
+    if (!report) throw support::Failure(error);
+    report->print(std::cout);
+    const std::vector<Mismatch> mismatches = report->mismatches();
+    for (const Mismatch& mismatch : mismatches)
+        std::cerr << "osgbinbench report: method " << mismatch.label
+                  << " draws another picture than the reference at pose " << mismatch.pose << ": "
+                  << withDecimals(mismatch.pixels, 0) << " pixels differ\n";
+    return mismatches.empty() ? support::kSucceeded : support::kFailed;
 }
 
 }  // namespace osgAnalyticBin::report

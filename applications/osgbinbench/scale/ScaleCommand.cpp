@@ -3,14 +3,12 @@
 
 #include "ScaleCommand.h"
 
+#include "CommandLine.h"
 #include "Failure.h"
 #include "ModuleFolder.h"
 #include "Series.h"
 #include "TextFile.h"
 
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 #include <osg/Notify>
 
 #include <algorithm>
@@ -43,29 +41,20 @@ constexpr const char* kFooter =
     "Example:\n"
     "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
-void declare(CLI::App& app, Settings& settings) {
-    app.footer(kFooter);
-    const auto list = [&app](const char* name, auto& values, const char* meaning) {
-        return app.add_option(name, values, meaning)->delimiter(',')->allow_extra_args(false);
-    };
-    list("--series", settings.series, "comma-separated: depth, residents, memory (default: all)");
-    list("--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)");
-    list("--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")->check(CLI::Range(0, 24));
-    list("--residents", settings.residents,
-         "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)")
-        ->check(CLI::Range(1, 1000000));
-    const auto number = [&app](const char* name, int& value, int most, const char* meaning, int least = 1) {
-        app.add_option(name, value, meaning)->check(CLI::Range(least, most));
-    };
-    number("--memory-tiles", settings.memoryTiles, 1000000,
-           "tiles whose memory is counted, 1 to 1000000 (default 10000)");
-    number("--poses", settings.poses, 1000, "stops of the flight, 2 to 1000 (default 12)", 2);
-    number("--cells", settings.cells, 64, "cells along a tile's edge, even, 2 to 64 (default 8)", 2);
-    number("--rounds", settings.rounds, 10000, "rounds of three timed traversals each, 1 to 10000 (default 15)");
-    app.add_option("--csv", settings.csv, "file for the figures, a line for each method and measurement");
-    app.add_option("--json", settings.json, "file for the figures");
-    app.add_option("--plot", settings.plot,
-                   "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
+void declare(support::CommandLine& line, Settings& settings) {
+    line.addList("--series", settings.series, "comma-separated: depth, residents, memory (default: all)");
+    line.addList("--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)");
+    line.addList("--levels", settings.levels, 0, 24, "numbers of levels, 0 to 24 (default 4,8,12,16,20)");
+    line.addList("--residents", settings.residents, 1, 1000000,
+                 "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)");
+    line.add("--memory-tiles", settings.memoryTiles, 1, 1000000, "tiles whose memory is counted (default 10000)");
+    line.add("--poses", settings.poses, 2, 1000, "stops of the flight (default 12)");
+    line.add("--cells", settings.cells, 2, 64, "cells along a tile's edge, even (default 8)");
+    line.add("--rounds", settings.rounds, 1, 10000, "rounds of three timed traversals each (default 15)");
+    line.add("--csv", settings.csv, "file for the figures, a line for each method and measurement");
+    line.add("--json", settings.json, "file for the figures");
+    line.add("--plot", settings.plot,
+             "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
 }
 
 void check(const Settings& settings) {
@@ -120,12 +109,12 @@ void measure(const Settings& settings) {
 }  // namespace
 
 support::ExitCode run(int argc, char** argv) {
-    CLI::App app{"Measures how culling scales with the depth of a database and with what is in memory.",
-                 "osgbinbench scale"};
-    app.set_version_flag("--version", std::string("osgbinbench scale (osgAnalyticBin) ") + osgAnalyticBin::version());
+    support::CommandLine line("osgbinbench scale",
+                              "Measures how culling scales with the depth of a database and with what is in memory.",
+                              kFooter);
     Settings settings;
-    declare(app, settings);
-    if (!support::parseCommandLine(app, argc, argv)) return support::kSucceeded;
+    declare(line, settings);
+    if (!line.parse(argc, argv)) return support::kSucceeded;
     check(settings);
     // globes are read again and again, and the plugin says each time that they have bins
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);

@@ -9,6 +9,7 @@
 #include <osg/CoordinateSystemNode>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -34,18 +35,38 @@ core::Ellipsoid wgs84() {
 }
 
 Terrain::Terrain(const std::string& dem, int deepestLevel)
-    : _ellipsoid(wgs84()),
-      _source(layerOf(dem)),
-      _pyramid(deepestLevel, [this](const TileId& tile) { return range(tile); }) {
+    : _ellipsoid(wgs84()), _source(layerOf(dem)), _heights(static_cast<std::size_t>(deepestLevel) + 1) {
+    for (int level = 0; level <= deepestLevel; ++level) {
+        const TileId any{level, 0, 0};
+        _heights[static_cast<std::size_t>(level)].resize(static_cast<std::size_t>(any.columns() * any.rows()));
+    }
+    for (int y = 0; y < TileId::kStartRows; ++y)
+        for (int x = 0; x < TileId::kStartColumns; ++x) findHeights({0, x, y});
     const osgbindem::RasterFile& file = *_source.layer().members().front().file;
     if (!file.hasHeights(file.look())) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
-core::Interval Terrain::range(const TileId& tile) {
+core::Interval Terrain::findHeights(const TileId& tile) {
     if (tile.level == 0) _source.prefetch(tile.rect());
+    core::Interval& heights = _heights[level(tile)][place(tile)];
+    if (tile.level == deepestLevel()) return heights = range(tile);
+    heights = {HUGE_VAL, -HUGE_VAL};
+    for (const TileId& child : tile.children()) {
+        const core::Interval part = findHeights(child);
+        heights = {std::min(heights.lower, part.lower), std::max(heights.upper, part.upper)};
+    }
+    return heights;
+}
+
+core::Interval Terrain::range(const TileId& tile) {
     osgbindem::HeightRange range;
     if (!_source.addRange(tile.rect(), range)) range.include(0.0);
     return {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
+}
+
+core::GeodeticBin Terrain::bin(const TileId& tile) const {
+    const osgbindem::RectDeg rect = tile.rect();
+    return core::GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, heights(tile));
 }
 
 osgbindem::RectDeg Terrain::extent() const noexcept {

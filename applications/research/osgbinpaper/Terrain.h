@@ -4,13 +4,17 @@
 #pragma once
 
 #include "DemSource.h"
-#include "HeightPyramid.h"
+#include "TileLayout.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin::paper {
+
+using osgbindem::TileId;
 
 /// The ellipsoid of a default osg::EllipsoidModel.
 [[nodiscard]] core::Ellipsoid wgs84();
@@ -18,11 +22,22 @@ namespace osgAnalyticBin::paper {
 /// The globe that an elevation raster describes; 0 m where it has no data.
 class Terrain final {
 public:
+    static constexpr int kDeepest = 8;
+
     /// Heights below 0 m, those of the sea's floor, are taken for its surface.
+    /// Finds the lowest and highest altitude of every tile down to a level in advance, 0 to kDeepest.
+    /// Source: [JJ] section 4: heights of every block from a pyramid.
     /// Throws: osgbindem::Failure when the raster cannot be read.
     Terrain(const std::string& dem, int deepestLevel);
 
-    [[nodiscard]] const HeightPyramid& pyramid() const noexcept { return _pyramid; }
+    [[nodiscard]] int deepestLevel() const noexcept { return static_cast<int>(_heights.size()) - 1; }
+
+    /// Metres above the ellipsoid. Requires: tile.level <= deepestLevel().
+    [[nodiscard]] const core::Interval& heights(const TileId& tile) const { return _heights[level(tile)][place(tile)]; }
+
+    /// The tile's analytic bin. Requires: as heights().
+    [[nodiscard]] core::GeodeticBin bin(const TileId& tile) const;
+
     [[nodiscard]] const core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
 
     /// Where the raster has part; the whole globe for one that goes round it.
@@ -38,11 +53,18 @@ public:
     void prefetch(const osgbindem::RectDeg& rect) { _source.prefetch(rect); }
 
 private:
+    [[nodiscard]] static std::size_t level(const TileId& tile) { return static_cast<std::size_t>(tile.level); }
+    [[nodiscard]] static std::size_t place(const TileId& tile) {
+        return static_cast<std::size_t>(tile.y) * static_cast<std::size_t>(tile.columns()) +
+               static_cast<std::size_t>(tile.x);
+    }
+
+    core::Interval findHeights(const TileId& tile);
     [[nodiscard]] core::Interval range(const TileId& tile);
 
     core::Ellipsoid _ellipsoid;
     osgbindem::DemSource _source;
-    HeightPyramid _pyramid;
+    std::vector<std::vector<core::Interval>> _heights;  // of each level, rows from south to north
 };
 
 }  // namespace osgAnalyticBin::paper

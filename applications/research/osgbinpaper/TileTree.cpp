@@ -36,7 +36,7 @@ void divide(std::vector<TreeTile>& tiles, const Terrain& terrain, const Camera& 
         const TileId id = tiles[i].id;
         const double width = tiles[i].box.latitude().width() * terrain.ellipsoid().equatorialRadius();
         const bool isNear = distanceTo(tiles[i].box, terrain.ellipsoid(), eye, camera.eye) < kWidths * width;
-        if (!isNear || id.level == terrain.pyramid().deepestLevel()) continue;
+        if (!isNear || id.level == terrain.deepestLevel()) continue;
         tiles[i].firstChild = tiles.size();
         for (const TileId& child : id.children()) tiles.emplace_back(terrain, child);
     }

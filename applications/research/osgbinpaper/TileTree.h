@@ -16,7 +16,7 @@ struct TreeTile {
     static constexpr std::size_t kNone = 0;
 
     TreeTile(const Terrain& terrain, const TileId& tile)
-        : id(tile), box(terrain.pyramid().bin(tile)), bins(terrain.ellipsoid(), box) {}
+        : id(tile), box(terrain.bin(tile)), bins(terrain.ellipsoid(), box) {}
 
     TileId id;
     core::GeodeticBin box;
@@ -29,7 +29,7 @@ struct TreeTile {
 };
 
 /// The 128 start tiles and what they are divided into: a tile is divided while it is nearer to the eye than three of
-/// its widths, down to the pyramid's deepest level, whether it is in the frustum or not. Source: [JJ] section 4.
+/// its widths, down to the terrain's deepest level, whether it is in the frustum or not. Source: [JJ] section 4.
 struct TileTree {
     static constexpr std::size_t kStartTiles = 128;
 

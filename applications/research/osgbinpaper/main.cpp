@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CommandLine.h"
 #include "Failure.h"
 #include "Figures.h"
 #include "ProgramRun.h"
 #include "ProgressLine.h"
 #include "TextFile.h"
 
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 #include <cpl_error.h>
 #include <gdal.h>
 
@@ -27,32 +25,33 @@ using namespace osgAnalyticBin::paper;
 struct Settings {
     std::string dem = "/usr/share/ferret-vis/data/etopo5.cdf";
     int levels = 6;
-    std::size_t cameras = 400;  // of each kind
+    int cameras = 400;  // of each kind
     std::string csv;
     std::string plot;
 };
 
-void declare(CLI::App& app, Settings& settings) {
-    app.add_option("DEM", settings.dem,
-                   "elevation raster that GDAL reads, metres; 0 m where it has no data; cameras stand above it\n"
-                   "(default: " +
-                       settings.dem + ")");
-    app.add_option("--levels", settings.levels, "levels of tiles below the 16 x 8 start tiles, 0 to 8 (default: 6)")
-        ->check(CLI::Range(0, HeightPyramid::kDeepest));
-    app.add_option("--cameras", settings.cameras, "cameras of each of the six kinds of view (default: 400)")
-        ->check(CLI::Range(1, 100000));
-    app.add_option("--csv", settings.csv, "write the counts to this file, a line for each view and method");
-    app.add_option("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
-    app.footer(
-        "Methods:\n"
-        "  corners    the eight corners of the bin        paper  nine points of the quadratic over a box grown by 1.1\n"
-        "  quadratic  the quadratic, with proven remainder and exact range        exact  the closed form\n"
-        "  box        the box along the axes of ECEF, for comparison\n"
-        "  hull       exact, and beyond the edges of the frustum: nearly the truth\n"
-        "Columns, sums over cameras:\n" +
-        meaningOfColumns() +
-        "\nExit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
-        "Example:\n  osgbinpaper --cameras 200 --csv paper.csv --plot figures\n");
+std::string footer() {
+    return "Methods:\n"
+           "  corners    the eight corners of the bin        paper  nine points of the quadratic over a box grown by "
+           "1.1\n"
+           "  quadratic  the quadratic, with proven remainder and exact range        exact  the closed form\n"
+           "  box        the box along the axes of ECEF, for comparison\n"
+           "  hull       exact, and beyond the edges of the frustum: nearly the truth\n"
+           "Columns, sums over cameras:\n" +
+           meaningOfColumns() +
+           "\nExit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
+           "Example:\n  osgbinpaper --cameras 200 --csv paper.csv --plot figures\n";
+}
+
+void declare(osgAnalyticBin::support::CommandLine& line, Settings& settings) {
+    line.add("DEM", settings.dem,
+             "elevation raster that GDAL reads, metres; 0 m where it has no data; cameras stand above it\n(default: " +
+                 settings.dem + ")");
+    line.add("--levels", settings.levels, 0, Terrain::kDeepest,
+             "levels of tiles below the 16 x 8 start tiles, 0 to 8 (default: 6)");
+    line.add("--cameras", settings.cameras, 1, 100000, "cameras of each of the six kinds of view (default: 400)");
+    line.add("--csv", settings.csv, "write the counts to this file, a line for each view and method");
+    line.add("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
 }
 
 void measure(const Settings& settings) {
@@ -60,7 +59,7 @@ void measure(const Settings& settings) {
     CPLSetErrorHandler(CPLQuietErrorHandler);
     Terrain terrain(settings.dem, settings.levels);
     osgAnalyticBin::support::ProgressLine progress(stderr);
-    const Results results = runExperiment(terrain, settings.cameras, [&](double share) {
+    const Results results = runExperiment(terrain, static_cast<std::size_t>(settings.cameras), [&](double share) {
         if (progress.isDue()) progress.show(share, "osgbinpaper: ");
     });
     printTables(std::cout, results);
@@ -71,13 +70,13 @@ void measure(const Settings& settings) {
 
 ExitCode run(int argc, char** argv) {
     Settings settings;
-    CLI::App app{
+    osgAnalyticBin::support::CommandLine line(
+        "osgbinpaper",
         "Repeats the published experiment on culling by analytic bins (Ju & Jong): real terrain, a quadtree from 128\n"
         "start tiles, random cameras, the same recursion for every method, and every verdict set against a proof.",
-        "osgbinpaper"};
-    app.set_version_flag("--version", std::string("osgbinpaper (osgAnalyticBin) ") + osgAnalyticBin::version());
-    declare(app, settings);
-    if (osgAnalyticBin::support::parseCommandLine(app, argc, argv)) measure(settings);
+        footer());
+    declare(line, settings);
+    if (line.parse(argc, argv)) measure(settings);
     return kSucceeded;
 }
 

@@ -70,7 +70,7 @@ protected:
         std::string error;
         std::vector<std::string> folders{truth};
         folders.insert(folders.end(), flights.begin(), flights.end());
-        const auto report = Report::of(folders, folders, "", error);
+        const auto report = Report::of(folders, "", error);
         ASSERT_TRUE(report) << error;
         for (const report::Mismatch& mismatch : report->mismatches())
             ADD_FAILURE() << mismatch.label << " at " << mismatch.pose << ": " << mismatch.pixels << " pixels";

@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/BinIndex.h>
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,6 +18,19 @@ namespace osgAnalyticBin::test {
 
 inline Outcome runBinconv(const std::string& arguments, const std::string& before = {}) {
     return runStock(before + test::quoted(OSGBINCONV_PROGRAM) + ' ' + arguments, Modules::Present);
+}
+
+/// --index on a root file.
+inline Outcome runIndex(const std::string& rootFile, const std::string& before = {}) {
+    return runBinconv("--quiet --index " + test::quoted(rootFile), before);
+}
+
+/// The index beside a root file; an empty one where there is none.
+inline osg::ref_ptr<BinIndex> indexOf(const std::string& rootFile) {
+    std::string error;
+    const osg::ref_ptr<BinIndex> index = readBinIndex(rootFile, nullptr, error);
+    EXPECT_TRUE(index) << error;
+    return index ? index : osg::ref_ptr<BinIndex>(new BinIndex);
 }
 
 inline std::string bytesOf(const std::string& path) {

@@ -32,12 +32,8 @@ protected:
         _map.isTerrain = std::string(GetParam()) == "terrain";
         _file = _folder / "map.osgb";
         ASSERT_TRUE(osgDB::writeNodeFile(*_map.build(_folder.path()), _file));
-        const Outcome made = runBinconv("--quiet --index " + test::quoted(_file));
-        ASSERT_EQ(made.code, 0) << made.text;
-        EXPECT_EQ(made.text, "");
-        std::string error;
-        _index = readBinIndex(_file, nullptr, error);
-        ASSERT_TRUE(_index) << error;
+        EXPECT_EQ(runIndex(_file).text, "");
+        _index = indexOf(_file);
     }
 
     TemporaryFolder _folder;

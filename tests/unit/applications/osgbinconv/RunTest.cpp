@@ -67,7 +67,7 @@ TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
     fs::remove(indexFile());
     // A folder in the way of the last step leaves all records, as a kill just before it does.
     fs::create_directories(indexFile() + ".tmp/in the way");
-    expectFailure(runBinconv("--quiet --index " + test::quoted(_database)), "cannot write");
+    expectFailure(runIndex(_database), "cannot write");
     const std::string part = bytesOf(partFile());
     ASSERT_GT(part.size(), 10000u);
     fs::remove_all(indexFile() + ".tmp");
@@ -86,19 +86,10 @@ TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
     EXPECT_EQ(bytesOf(indexFile()), whole);
 }
 
-TEST_F(Run, ARunThatIsKilledGoesOnToTheSameBytes) {
-    const std::string whole = indexed();
-    fs::remove(indexFile());
-    int killed = 0;
-    for (int i = 0; i < 4; ++i) killed += indexEndedBy("KILL").code == 0 ? 0 : 1;
-    EXPECT_GT(killed, 0);
-    EXPECT_EQ(indexed(), whole);
-}
-
 TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
     const std::string whole = indexed();
     fs::create_directories(indexFile() + ".tmp/in the way");
-    (void)runBinconv("--quiet --index " + test::quoted(_database));
+    (void)runIndex(_database);
     fs::remove_all(indexFile() + ".tmp");
     ASSERT_TRUE(fs::exists(partFile()));
     const std::string tile = _folder / "tiles_1_3_3.osgb";
@@ -212,7 +203,7 @@ TEST_F(Run, AFullDiskIsNoticedAndTheRerunGoesOn) {
 
 TEST_F(Run, WhatIsNotOursIsNotReplaced) {
     writeBytes(indexFile(), "my own notes");
-    expectFailure(runBinconv("--quiet --index " + test::quoted(_database)), "move it away");
+    expectFailure(runIndex(_database), "move it away");
     EXPECT_EQ(bytesOf(indexFile()), "my own notes");
 }
 

@@ -33,7 +33,7 @@ TEST(NameParameters, NeedNoName) {
 TEST(FlightOptions, ReadsEveryParameter) {
     FlightOptions options;
     std::string error;
-    ASSERT_TRUE(applyParameters("out=/tmp/a folder, frames=3 ,timeout=1.5", options, error)) << error;
+    ASSERT_TRUE(readBracketed(options.parameters(), "out=/tmp/a folder, frames=3 ,timeout=1.5", error)) << error;
     EXPECT_EQ(options.out, "/tmp/a folder");
     EXPECT_EQ(options.frames, 3);
     EXPECT_EQ(options.timeout, 1.5);
@@ -43,7 +43,7 @@ TEST(FlightOptions, NamesAnUnknownOrMalformedParameter) {
     for (const char* const bad : {"speed=3", "frames=0", "frames=1.5", "frames=many", "timeout=-1", "out=", "frames"}) {
         FlightOptions options;
         std::string error;
-        EXPECT_FALSE(applyParameters(bad, options, error)) << bad;
+        EXPECT_FALSE(readBracketed(options.parameters(), bad, error)) << bad;
         EXPECT_NE(error.find(bad), std::string::npos) << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
@@ -52,9 +52,9 @@ TEST(FlightOptions, NamesAnUnknownOrMalformedParameter) {
 TEST(FlightOptions, PassesOverTheOptionsOfOtherPlugins) {
     FlightOptions options;
     std::string error;
-    ASSERT_TRUE(applyOptionString("method=sphere frames=7 dds_flip", options, error)) << error;
+    ASSERT_TRUE(readOptionString(options.parameters(), "method=sphere frames=7 dds_flip", error)) << error;
     EXPECT_EQ(options.frames, 7);
-    EXPECT_FALSE(applyOptionString("method=sphere frames=seven", options, error));
+    EXPECT_FALSE(readOptionString(options.parameters(), "method=sphere frames=seven", error));
 }
 
 }  // namespace

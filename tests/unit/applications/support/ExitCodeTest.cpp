@@ -61,7 +61,7 @@ const std::vector<UsedProgram> kPrograms{
      "--compare @/old.json @/new.json",
      {"", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
       "earth.osgb --path p.csv --frames 9 --plot plots"}},
-    {"osgbinbench report", "@/none @/bins", {"", "a b --labels one"}},
+    {"osgbinbench report", "@/none @/bins", {""}},
     {"osgbinbench scale", "--json @/absent/scale.json", {"--cells 3", "--methods cube", "--series shape"}},
     {"osgbinconv", "--index @/earth.ive", {"", "earth.ive", "--index --check earth.ive", "--index earth.ive x.osgb"}},
     {"osgbindem",

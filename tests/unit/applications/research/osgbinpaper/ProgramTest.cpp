@@ -20,8 +20,6 @@ using test::Outcome;
 using test::quoted;
 using test::textOfFile;
 
-constexpr const char* kDefaultDem = "/usr/share/ferret-vis/data/etopo5.cdf";
-
 class ProgramTest : public testing::Test {
 protected:
     Outcome run(const std::string& arguments, const std::string& environment = {}) const {
@@ -79,9 +77,6 @@ TEST_F(ProgramTest, DrawsEveryFigure) {
 TEST_F(ProgramTest, SaysWhatIsWrong) {
     expectError(quoted(_folder / "absent.tif"), "absent.tif");
     expectError(quoted(_folder.write("text.tif", "no raster")), "text.tif");
-    expectError(quick() + "--frobnicate", "--frobnicate");
-    expectError(quoted(_globe.file()) + " --levels 9", "--levels");
-    expectError(quoted(_globe.file()) + " --cameras 0", "--cameras");
 }
 
 TEST_F(ProgramTest, SaysWhatItCannotWrite) {
@@ -96,25 +91,12 @@ TEST_F(ProgramTest, SaysWhatItCannotWrite) {
     EXPECT_TRUE(namesIn(_folder.path()).empty());
 }
 
-TEST_F(ProgramTest, HelpHasUnitsAndAnExample) {
-    const Outcome outcome = run("--help");
-    EXPECT_EQ(outcome.code, 0);
-    for (const char* const word : {"metres", "wrong_culls", "Example:", "--plot"})
-        EXPECT_NE(outcome.text.find(word), std::string::npos) << word;
-}
-
 TEST_F(ProgramTest, TakesTrueGtopo30) {
     const std::string dem = std::string(SAMPLE_DATA) + "/dem/gtopo30_w020n90_cut_3E9E_50N54N.tif";
     if (!fs::exists(dem)) GTEST_SKIP() << dem << " is absent";
     const Outcome outcome = run(quoted(dem) + " --levels 7 --cameras 2 --csv " + quoted(_folder / "a.csv"));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_NE(textOfFile(_folder / "a.csv").find("quadratic"), std::string::npos);
-}
-
-TEST_F(ProgramTest, TakesTheDefaultRaster) {
-    if (!fs::exists(kDefaultDem)) GTEST_SKIP() << kDefaultDem << " is absent";
-    const Outcome outcome = run("--levels 3 --cameras 1");
-    EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
 }  // namespace

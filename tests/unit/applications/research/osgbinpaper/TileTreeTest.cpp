@@ -78,9 +78,8 @@ TEST_F(TileTreeTest, AWitnessIsAPointOfTheTileInTheFrustum) {
 
 TEST_F(TileTreeTest, TerrainBehindTheGlobeIsNoWitness) {
     const Camera camera = cameraAt(wgs84(), {0.0, 0.0, 1e6}, 0.0, 90.0, 60.0);
-    const HeightPyramid& pyramid = _terrain.pyramid();
-    const core::GeodeticBin near = pyramid.bin({0, 8, 4});
-    const core::GeodeticBin antipode = pyramid.bin({0, 0, 4});
+    const core::GeodeticBin near = _terrain.bin({0, 8, 4});
+    const core::GeodeticBin antipode = _terrain.bin({0, 0, 4});
     EXPECT_TRUE(findTerrainWitness(_terrain, near, camera));
     EXPECT_TRUE(findWitness(wgs84(), antipode, camera));
     EXPECT_FALSE(findTerrainWitness(_terrain, antipode, camera));
