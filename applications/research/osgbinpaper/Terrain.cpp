@@ -37,8 +37,8 @@ Terrain::Terrain(const std::string& dem, int deepestLevel)
     : _ellipsoid(wgs84()),
       _source(layerOf(dem)),
       _pyramid(deepestLevel, [this](const TileId& tile) { return range(tile); }) {
-    const osgbindem::RasterFile& file = *_source.layer().members().front().file;
-    if (!file.hasHeights(file.look())) throw Failure("no heights in \"" + dem + "\", only missing data");
+    const osgbindem::RasterLook look = _source.layer().members().front().file->look();
+    if (look.missing == look.posts) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
 core::Interval Terrain::range(const TileId& tile) {
