@@ -14,10 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -29,32 +31,21 @@ namespace {
 constexpr const char* kFoundLevels = "levels found ";
 constexpr const char* kElevation = "elevation ";
 constexpr const char* kImage = "image ";
-constexpr const char* kArea = "  area ";
-constexpr const char* kReach = "  reach ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) return path;  // GDAL has names that are no files
     const std::filesystem::path whole = std::filesystem::canonical(path, error);
-    return error ? path : whole.string();
+    return error ? path : whole.string();  // GDAL has names that are no files
 }
 
 void describeFile(const std::string& path, std::ostream& out) {
     VSIStatBufL status{};
     const bool isThere = VSIStatL(path.c_str(), &status) == 0;
-    out << "  file " << wholePath(path);
+    out << ", file " << wholePath(path);
     if (isThere) out << ' ' << status.st_size << ' ' << status.st_mtim.tv_sec << '.' << status.st_mtim.tv_nsec;
-    out << '\n';
-}
-
-/// A raster may be made of many files: a mosaic, or one with overviews beside it.
-void describeFiles(GDALDataset& dataset, std::ostream& out) {
-    char** files = dataset.GetFileList();
-    for (int i = 0; i < CSLCount(files); ++i) describeFile(files[i], out);
-    CSLDestroy(files);
 }
 
 /// How far from a change of a coarser raster heights of this one's voids may change, in degrees.
@@ -67,24 +58,24 @@ double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayou
     return VoidFill::kMostReach * spacing;
 }
 
-/// Rasters of all layers in the order of the command line. `describe`: says what is special, under a raster's name.
-template <typename Describe>
-void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out, const Describe& describe) {
-    std::vector<const RasterLayer::Member*> members;
-    for (const auto& layer : layers) {
-        for (const RasterLayer::Member& member : layer->members()) members.push_back(&member);
-    }
-    std::sort(members.begin(), members.end(), [](const auto* a, const auto* b) { return a->number < b->number; });
-    for (const RasterLayer::Member* member : members) {
-        out << kind << wholePath(member->file->path()) << '\n';
+/// Rasters of all layers in the order of the command line, a line each. `reach`: of a raster's voids, in degrees.
+template <typename Reach>
+void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out, const Reach& reach) {
+    std::map<std::size_t, const RasterLayer::Member*> members;
+    for (const auto& layer : layers)
+        for (const RasterLayer::Member& member : layer->members()) members[member.number] = &member;
+    for (const auto& [number, member] : members) {
         // Where heights or colours may depend on the raster.
         const RectDeg area = member->grid.extent().grownBy(member->grid.resolutionDeg());
-        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
-        out << "  blended over ";
+        out << kind << reach(member->grid) << ' ' << member->grid.resolutionDeg() << ' ' << area.west << ' '
+            << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file->path())
+            << ", blended over ";
         member->band.describe(out);
+        out << ", scale " << member->file->options().metresPerUnit.value_or(0.0);
+        // A raster may be made of many files: a mosaic, or one with overviews beside it.
+        const CPLStringList files(member->file->file().GetFileList());
+        for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);
         out << '\n';
-        describe(*member);
-        describeFiles(member->file->file(), out);
     }
 }
 
@@ -106,18 +97,16 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     }
     if (!settings.geoid.empty()) {
         const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
-        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid) << '\n';
+        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid);
         if (isFile) describeFile(settings.geoid, out);
+        out << '\n';
     }
     if (settings.band) out << "band " << *settings.band << '\n';
     for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out, [&](const auto& member) {
-        const auto scale = settings.dems[member.number].metresPerUnit;
-        if (scale) out << "  scale " << *scale << '\n';
-        out << kReach << member.grid.resolutionDeg() << ' ' << reachOf(member.grid, settings, layout) << '\n';
-    });
-    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const auto&) {});
+    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out,
+                    [&](const RasterGrid& grid) { return reachOf(grid, settings, layout); });
+    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const RasterGrid&) { return 0.0; });
     return out.str();
 }
 
@@ -145,90 +134,83 @@ bool ChangedArea::touches(const RectDeg& rect) const noexcept {
 namespace {
 
 struct Raster {
-    std::string text;
-    RectDeg area;
-    double resolutionDeg = 0.0;
     /// See reachOf(). No part of what the raster is: it depends on the other rasters too.
     double reachDeg = 0.0;
+    double resolutionDeg = 0.0;
+    RectDeg area;
+    /// All that is said of the raster but its reach.
+    std::string text;
 
     bool operator==(const Raster& other) const { return text == other.text; }
 };
+using Rasters = std::vector<Raster>;
 
 /// The description of a database taken apart.
 struct Sources {
-    /// Everything but rasters and images, and the levels where nobody gave them.
-    std::string settings;
-    std::vector<Raster> rasters;
-    std::vector<Raster> images;
-};
-
-Sources sourcesFrom(const std::string& description) {
-    Sources sources;
-    std::vector<Raster>* list = nullptr;  // whose last one the lines are of
-    std::istringstream in(description);
-    for (std::string line; std::getline(in, line);) {
-        const bool isElevation = line.rfind(kElevation, 0) == 0;
-        if (isElevation || line.rfind(kImage, 0) == 0) {
-            list = isElevation ? &sources.rasters : &sources.images;
-            list->emplace_back();
-        } else if (line.rfind("  ", 0) != 0) {
-            list = nullptr;
-        }
-        if (list) {
-            Raster& raster = list->back();
-            if (line.rfind(kReach, 0) == 0) {
-                std::istringstream(line.substr(std::string(kReach).size())) >> raster.resolutionDeg >> raster.reachDeg;
-                continue;
+    explicit Sources(const std::string& description) {
+        std::istringstream in(description);
+        for (std::string line; std::getline(in, line);) {
+            if (line.rfind(kElevation, 0) == 0) {
+                rasters.push_back(rasterFrom(line.substr(std::strlen(kElevation))));
+            } else if (line.rfind(kImage, 0) == 0) {
+                images.push_back(rasterFrom(line.substr(std::strlen(kImage))));
+            } else if (line.rfind(kFoundLevels, 0) != 0) {
+                settings += line + '\n';
             }
-            raster.text += line + '\n';
-            if (line.rfind(kArea, 0) != 0) continue;
-            std::istringstream numbers(line.substr(std::string(kArea).size()));
-            numbers >> raster.area.west >> raster.area.south >> raster.area.east >> raster.area.north;
-        } else if (line.rfind(kFoundLevels, 0) != 0) {
-            sources.settings += line + '\n';
         }
     }
-    return sources;
-}
+
+    /// Everything but rasters and images, and the levels where nobody gave them.
+    std::string settings;
+    Rasters rasters;
+    Rasters images;
+
+private:
+    static Raster rasterFrom(const std::string& line) {
+        Raster raster;
+        std::istringstream in(line);
+        in >> raster.reachDeg;
+        std::getline(in, raster.text);
+        std::istringstream(raster.text) >> raster.resolutionDeg >> raster.area.west >> raster.area.south >>
+            raster.area.east >> raster.area.north;
+        return raster;
+    }
+};
 
 /// Those of the first that are not in the second.
-std::vector<Raster> without(const std::vector<Raster>& rasters, const std::vector<Raster>& others) {
-    std::vector<Raster> result;
+Rasters without(const Rasters& rasters, const Rasters& others) {
+    Rasters result;
     std::copy_if(rasters.begin(), rasters.end(), std::back_inserter(result),
                  [&](const Raster& raster) { return std::find(others.begin(), others.end(), raster) == others.end(); });
     return result;
 }
 
-// Rasters of one layer have spacings that differ by less.
-constexpr double kNearlyAsFine = 1.1;
-
-/// Where heights may change when the raster does: where it lies, and in the voids of finer ones that are `kept`.
-RectDeg changedBy(const Raster& raster, const std::vector<Raster>& kept) {
-    double reach = 0.0;
-    for (const Raster& other : kept) {
-        if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
-    }
-    return raster.area.grownBy(reach);
-}
-
-void addChanges(const std::vector<Raster>& before, const std::vector<Raster>& now, ChangedArea& area) {
-    std::vector<Raster> gone = without(before, now);
-    std::vector<Raster> added = without(now, before);
+void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
+    Rasters changed = without(before, now);
+    const Rasters added = without(now, before);
+    Rasters kept = without(before, changed);
     // Of two equally fine rasters the one named first counts.
-    if (without(before, gone) != without(now, added)) {
-        gone = before;
-        added = now;
+    const bool isInOrder = kept == without(now, added);
+    changed.insert(changed.end(), added.begin(), added.end());
+    if (!isInOrder) {
+        changed.insert(changed.end(), kept.begin(), kept.end());
+        kept.clear();
     }
-    const std::vector<Raster> kept = without(before, gone);
-    for (const Raster& raster : gone) area.add(changedBy(raster, kept));
-    for (const Raster& raster : added) area.add(changedBy(raster, kept));
+    constexpr double kNearlyAsFine = 1.1;  // spacings of what counts as equally fine differ by less
+    for (const Raster& raster : changed) {
+        // Heights may change where the raster lies, and in the voids of finer ones that are kept.
+        double reach = 0.0;
+        for (const Raster& other : kept)
+            if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
+        area.add(raster.area.grownBy(reach));
+    }
 }
 
 }  // namespace
 
 std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
-    const Sources old = sourcesFrom(before);
-    const Sources current = sourcesFrom(now);
+    const Sources old(before);
+    const Sources current(now);
     if (old.settings != current.settings) return std::nullopt;
     ChangedArea area;
     addChanges(old.rasters, current.rasters, area);

@@ -9,7 +9,6 @@
 #include "TaskWork.h"
 #include "TileFiles.h"
 
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -80,31 +79,30 @@ public:
     /// Throws: when a rank has failed, what it says in the first rank (Failure), Interrupted in the others.
     void hold() {
         ++_held;
-        if (!_ranks.meet(false, [this] { glance(); })) return;
+        if (!_ranks.meet(false, [this] {
+                if (stopRequested) _interrupted();
+            }))
+            return;
         // It was sent before that rank came.
         std::optional<std::string> text;
         while (_ranks.isFirst() && !(text = _ranks.failureElsewhere())) waitABit();
-        std::rethrow_exception(failureOf(text.value_or("")));
+        fail(text.value_or(""));
     }
     /// This rank has failed: returns when no other one writes any more.
     void giveUp() {
         constexpr int kUntilPartsAreDone = 2;
         for (; _held < kUntilPartsAreDone; ++_held) (void)_ranks.meet(true, {});
     }
-    /// Waits while `isBusy`; stops the threads when another rank has failed.
-    void watch(TaskBoard& board, const std::function<bool()>& isBusy) const {
-        for (; isBusy(); waitABit()) {
-            if (stopRequested && !board.hasFailed()) _interrupted();  // in this order: a failure sets it too
-            if (const auto text = _ranks.failureElsewhere()) board.fail(failureOf(*text));
-        }
+    /// Throws as hold().
+    void glance(bool isStopped) const {
+        if (isStopped) _interrupted();
+        if (const auto text = _ranks.failureElsewhere()) fail(*text);
     }
 
 private:
-    void glance() const {
-        if (stopRequested) _interrupted();
-    }
-    [[nodiscard]] std::exception_ptr failureOf(const std::string& text) const {
-        return _ranks.isFirst() ? std::make_exception_ptr(Failure(text)) : std::make_exception_ptr(Interrupted());
+    [[noreturn]] void fail(const std::string& text) const {
+        if (_ranks.isFirst()) throw Failure(text);
+        throw Interrupted();
     }
 
     const Ranks& _ranks;
@@ -121,36 +119,22 @@ std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
     return parts;
 }
 
-/// Does this rank's parts. `starts`: in the first rank, built when all ranks are done.
-void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseFolder& folder, const Ranks& ranks,
-                Meetings& meetings, StartTiles* starts) {
-    TaskBoard board(partsOf(ranks, plan));
-    if (ranks.count() > 1 && starts) board.hold();
-    Threads threads = startThreads(site, plan, board, starts);
-    if (ranks.count() > 1) {
-        const auto isRunning = [](const std::future<void>& thread) {
-            return thread.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-        };
-        meetings.watch(board,
-                       [&] { return std::any_of(threads.begin(), threads.end(), isRunning) && !board.isFinished(); });
-        try {
-            if (!starts) {
-                threads.clear();
-                board.rethrow();
-                osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back of it
-            }
-            if (!board.hasFailed()) meetings.hold();
-            board.release();
-        } catch (...) {
-            board.fail(std::current_exception());
+/// Does this rank's parts, and waits until all ranks have done theirs.
+void doParts(const Site& site, const std::vector<Task>& plan, const DatabaseFolder& folder, const Ranks& ranks,
+             Meetings& meetings) {
+    try {
+        Glance glance;
+        if (ranks.count() > 1) glance = [&](bool isStopped) { meetings.glance(isStopped); };
+        doTasks(site, partsOf(ranks, plan), glance);
+        if (!ranks.isFirst()) osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back
+        meetings.hold();
+    } catch (...) {
+        if (ranks.isFirst()) {
+            ranks.sendFailure({});
+            meetings.giveUp();
         }
+        throw;
     }
-    threads.clear();
-    if (starts && board.hasFailed()) {
-        ranks.sendFailure({});
-        meetings.giveUp();
-    }
-    board.rethrow();
 }
 
 void buildWith(const Settings& given, const Ranks& ranks) {
@@ -175,8 +159,10 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     try {
         const TileFiles files = folder.files(layout);
         Progress progress(!settings.quiet, weightOf(partsOf(ranks, plan)));
+        const Site site{settings, layout, files, state, progress};
+        doParts(site, plan, folder, ranks, meetings);
         StartTiles starts(settings, layout);
-        buildParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings, &starts);
+        buildStarts(site, plan, starts);
         const std::string root = starts.rootBytes();
         folder.complete(root, sources);
         progress.finish();
@@ -208,7 +194,7 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
         const TileFiles files = folder.files(layout);
         const BuildState state(folder.stateFolder());
         Progress progress(false, 1.0);
-        buildParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings, nullptr);
+        doParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings);
     } catch (const Interrupted&) {
         // the first rank knows why
     } catch (const std::bad_alloc&) {

@@ -28,12 +28,9 @@ using osgAnalyticBin::support::writeFile;
 
 namespace {
 
-// What is in a record, and in which order: another one for each change.
-constexpr std::uint64_t kRecordFormat = 0x6F73676254736B33U;
-
 /// One description of the bytes for both directions.
-template <class Stream, class Record, class Numbers>
-void passRecord(Stream& s, Record& record, Numbers& heights) {
+template <class Stream, class Record>
+void passRecord(Stream& s, Record& record) {
     s.number(record.files.files);
     s.number(record.files.bytes);
     s.number(record.files.checksum);
@@ -41,42 +38,27 @@ void passRecord(Stream& s, Record& record, Numbers& heights) {
     s.number(record.tile.range.upper);
     Tally::pass(s, record.tile.tally);
     s.bin(record.tile.below);
-    s.numbers(heights);
+    s.numbers(record.tile.heights.values());
     for (auto& edge : record.tile.skirt) {
         s.numbers(edge.depth);
         s.numbers(edge.lean);
     }
 }
 
-std::string headOf(const TileId& tile) {
-    RecordWriter out;
-    out.number(kRecordFormat);
-    for (const int number : {tile.level, tile.x, tile.y}) out.number(number);
-    return out.bytes;
-}
-
-std::string bytesOf(const TaskRecord& record) {
-    RecordWriter out;
-    passRecord(out, record, record.tile.heights.values());
-    return headOf(record.tile.heights.tile()) + out.bytes;
-}
-
 std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile, const TileLayout& layout) {
-    const std::string head = headOf(tile);
-    if (bytes.substr(0, head.size()) != head) return std::nullopt;
     TaskRecord record{{HeightGrid(tile, layout), {}, {}, {}, {}}, {}};
-    std::vector<double> heights;
+    const std::size_t heights = record.tile.heights.values().size();
     try {
-        RecordReader in(bytes.substr(head.size()));
-        passRecord(in, record, heights);
+        RecordReader in(bytes);
+        passRecord(in, record);
     } catch (const std::out_of_range&) {
         return std::nullopt;
     }
-    if (!record.tile.heights.setValues(std::move(heights))) return std::nullopt;
     const auto posts = static_cast<std::size_t>(layout.posts());
-    for (const EdgeSkirt& edge : record.tile.skirt) {
-        if (edge.depth.size() != posts || edge.lean.size() != posts) return std::nullopt;
-    }
+    bool isWhole = record.tile.heights.values().size() == heights;
+    for (const EdgeSkirt& edge : record.tile.skirt)
+        isWhole = isWhole && edge.depth.size() == posts && edge.lean.size() == posts;
+    if (!isWhole) return std::nullopt;
     return record;
 }
 
@@ -105,9 +87,11 @@ std::size_t BuildState::count() const {
 }
 
 void BuildState::keep(const TaskRecord& record) const {
+    RecordWriter out;
+    passRecord(out, record);
     const std::string file = fileOf(record.tile.heights.tile());
     support::makeFolder(fs::path(file).parent_path().string());
-    support::writeFile(file, support::withChecksum(bytesOf(record)));
+    support::writeFile(file, support::withChecksum(out.bytes));
 }
 
 std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout& layout) const {

@@ -18,44 +18,46 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-/// Heights above the geoid of a grid, at longitudes and latitudes of WGS 84.
-OGRSpatialReference referenceOf(const std::string& grid) {
-    OGRSpatialReference reference;
-    const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
-    if (reference.importFromProj4(text.c_str()) != OGRERR_NONE) {
-        throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
-    }
-    return reference;
+// A raster that is up to so many times as coarse knows more of a void than the posts around it.
+constexpr double kRival = 1.5;
+
+constexpr const char* kAdvice = "; install the package proj-data, or see --geoid (none takes heights as they are)";
+
+// Half of the memory is GDAL's cache, the other half the windows that the threads keep.
+double postsPerThread(const Settings& settings) {
+    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
+    return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 
-/// A vertical reference system with longitudes and latitudes of WGS 84.
-OGRSpatialReference withPositions(const OGRSpatialReference& heights) {
-    OGRSpatialReference positions;
-    positions.importFromEPSG(4326);
-    OGRSpatialReference reference;
-    reference.SetCompoundCS("positions and heights", &positions, &heights);
-    return reference;
+std::string markText(const RasterLook& look, double posts) {
+    std::ostringstream out;
+    out << ": " << (look.posts < posts ? "some " : "") << std::round(look.marks * posts / look.posts)
+        << " posts with numbers like " << look.lastMark
+        << ", which no terrain has (where they are heights, see --height-unit)";
+    return out.str();
 }
 
 }  // namespace
 
 VerticalShift::VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path) {
-    if (geoid == "none") return;
-    if (geoid == "egm96") {
-        open(referenceOf("egm96_15.gtx"), "the geoid EGM96");
-    } else if (!geoid.empty()) {
-        open(referenceOf(std::filesystem::absolute(geoid).string()), "the geoid \"" + geoid + "\"");
-    } else if (!vertical.empty()) {
+    if (geoid == "none" || (geoid.empty() && vertical.empty())) return;
+    OGRSpatialReference source;
+    if (geoid.empty()) {
+        OGRSpatialReference positions;
         OGRSpatialReference heights;
+        positions.importFromEPSG(4326);
         heights.importFromWkt(vertical.c_str());
-        open(withPositions(heights),
-             std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"");
+        source.SetCompoundCS("positions and heights", &positions, &heights);
+        _what = std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"";
+    } else {
+        const bool isFile = geoid != "egm96";
+        _what = isFile ? "the geoid \"" + geoid + "\"" : "the geoid EGM96";
+        const std::string grid = isFile ? std::filesystem::absolute(geoid).string() : "egm96_15.gtx";
+        const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
+        if (source.importFromProj4(text.c_str()) != OGRERR_NONE) {
+            throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
+        }
     }
-}
-
-void VerticalShift::open(const OGRSpatialReference& reference, const std::string& what) {
-    _what = what;
-    OGRSpatialReference source(reference);
     OGRSpatialReference target;
     target.importFromEPSG(4979);
     source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -63,10 +65,7 @@ void VerticalShift::open(const OGRSpatialReference& reference, const std::string
     OGRCoordinateTransformationOptions options;
     options.SetBallparkAllowed(false);
     _transformation.reset(OGRCreateCoordinateTransformation(&source, &target, options));
-    if (!_transformation) {
-        throw Failure("PROJ has no grid for " + what +
-                      "; install the package proj-data, or see --geoid (none takes heights as they are)");
-    }
+    if (!_transformation) throw Failure("PROJ has no grid for " + _what + kAdvice);
 }
 
 double VerticalShift::at(const PositionDeg& position) const {
@@ -76,50 +75,10 @@ double VerticalShift::at(const PositionDeg& position) const {
     double z = 0.0;
     if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
         throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
-                      ", longitude " + std::to_string(position.longitudeDeg) +
-                      "; install the package proj-data, or see --geoid (none takes heights as they are)");
+                      ", longitude " + std::to_string(position.longitudeDeg) + kAdvice);
     }
     return z;
 }
-
-namespace {
-
-// A raster that is up to so many times as coarse knows more of a void than the posts around it.
-constexpr double kRival = 1.5;
-
-// Half of the memory is GDAL's cache, the other half the windows that the threads keep.
-double postsPerThread(const Settings& settings) {
-    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
-    return std::min(bytes / sizeof(double), DemSource::kMostPosts);
-}
-
-/// Notes on rasters; several rasters share a line where their notes are the same.
-class Notes {
-public:
-    void add(const std::string& path, const std::string& note) { _paths[note].push_back(path); }
-    [[nodiscard]] std::vector<std::string> lines() const {
-        std::vector<std::string> lines;
-        for (const auto& [note, paths] : _paths) {
-            const std::string others =
-                paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " others" : std::string();
-            lines.push_back("\"" + paths.front() + "\"" + others + ": " + note);
-        }
-        return lines;
-    }
-
-private:
-    std::map<std::string, std::vector<std::string>> _paths;
-};
-
-std::string markText(const RasterLook& look) {
-    std::ostringstream out;
-    out << ": " << (look.share < 1.0 ? "some " : "") << std::round(look.marks / look.share)
-        << " posts with numbers like " << look.lastMark
-        << ", which no terrain has (where they are heights, see --height-unit)";
-    return out.str();
-}
-
-}  // namespace
 
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _mostPosts(postsPerThread(settings)) {
     for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
@@ -209,23 +168,28 @@ void DemMosaic::prefetch(const RectDeg& rect) {
 }
 
 std::vector<std::string> DemMosaic::inspect() {
-    Notes notes;
+    std::map<std::string, std::vector<std::string>> notes;  // each with the paths of what it is true of
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
             const RasterFile& file = *member.file;
             const RasterLook look = file.look();
-            if (!file.hasHeights(look)) {
-                throw Failure("no heights in \"" + file.path() + "\", only missing data" +
-                              (look.marks > 0.0 ? markText(look) : std::string()) +
+            const std::string marks = look.marks > 0.0 ? markText(look, file.posts()) : std::string();
+            if (look.missing == look.posts) {
+                throw Failure("no heights in \"" + file.path() + "\", only missing data" + marks +
                               "; leave it out, or see --nodata, --height-unit and --radii");
             }
-            for (const std::string& note : file.notes()) notes.add(file.path(), note);
+            for (const std::string& note : file.notes()) notes[note].push_back(file.path());
             if (!_shifts[i].isNone())
-                notes.add(file.path(), "heights above " + _shifts[i].what() + ", converted by PROJ");
-            if (look.marks > 0.0) notes.add(file.path(), "missing data" + markText(look));
+                notes["heights above " + _shifts[i].what() + ", converted by PROJ"].push_back(file.path());
+            if (!marks.empty()) notes["missing data" + marks].push_back(file.path());
         }
     }
-    return notes.lines();
+    std::vector<std::string> lines;
+    for (const auto& [note, paths] : notes) {
+        const std::string others = paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " others" : "";
+        lines.push_back("\"" + paths.front() + "\"" + others + ": " + note);
+    }
+    return lines;
 }
 
 double DemMosaic::finestDeg() const noexcept {

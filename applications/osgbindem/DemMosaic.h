@@ -41,7 +41,6 @@ private:
             OGRCoordinateTransformation::DestroyCT(transformation);
         }
     };
-    void open(const OGRSpatialReference& reference, const std::string& what);
 
     std::string _what;
     std::unique_ptr<OGRCoordinateTransformation, Destroy> _transformation;

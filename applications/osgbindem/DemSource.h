@@ -7,7 +7,7 @@
 #include "VoidFill.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,8 +58,8 @@ public:
     /// Whether any post within the rectangle has data.
     [[nodiscard]] bool hasData(const RectDeg& rect);
 
-    /// Adds the heights of all posts that have part in the rectangle, at the full resolution of the file, voids filled.
-    /// Returns: whether the raster has heights everywhere in the rectangle.
+    /// Adds the heights of all posts that have part in the rectangle, voids filled.
+    /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, HeightRange& range);
 
     /// Reads what touches the rectangle into memory, if it is not there and is not too much.
@@ -76,17 +76,16 @@ private:
         }
     };
 
-    void read(GDALDataset& dataset, const PixelWindow& window, std::vector<double>& heights);
-    bool addRange(const PixelWindow& window, HeightRange& range);
-    template <typename Rows>
-    void readInParts(GDALDataset& dataset, const PixelWindow& window, const Rows& rows);
-    [[nodiscard]] bool hasData(const PixelWindow& window);
-    [[nodiscard]] double ownPost(int column, int row);
+    void read(const PixelWindow& window, std::vector<double>& heights);
+    /// Reads windows in parts of about so many posts, as long as `visit` says so.
+    void readInParts(const std::vector<PixelWindow>& windows, double posts,
+                     const std::function<bool(const PixelWindow& part, const std::vector<double>& heights)>& visit);
+    [[nodiscard]] double post(int column, int row);
     [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
 
     std::unique_ptr<RasterLayer> _layer;
     std::vector<Page> _pages;
-    std::vector<double> _scratch;
+    std::vector<double> _single;
     VoidFill _voids;
 };
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <utility>
 
 namespace osgbindem {
 
@@ -109,12 +108,6 @@ void HeightGrid::sampleRing(DemMosaic& mosaic, const TileLayout& layout) {
         samplePost(mosaic, layout, -1, i);
         samplePost(mosaic, layout, _cells + 1, i);
     }
-}
-
-bool HeightGrid::setValues(std::vector<double> values) {
-    if (values.size() != _heights.size()) return false;
-    _heights = std::move(values);
-    return true;
 }
 
 HeightRange HeightGrid::range() const noexcept {

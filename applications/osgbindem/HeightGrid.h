@@ -77,11 +77,9 @@ public:
 
     void sampleRing(DemMosaic& mosaic, const TileLayout& layout);
 
-    /// All heights with the ring, row by row from the south-west, to be stored.
+    /// All heights with the ring, row by row from the south-west, to be stored and read back, as many.
     [[nodiscard]] const std::vector<double>& values() const noexcept { return _heights; }
-
-    /// Takes heights that were stored. Returns: false when there are too many or too few.
-    [[nodiscard]] bool setValues(std::vector<double> values);
+    [[nodiscard]] std::vector<double>& values() noexcept { return _heights; }
 
     /// Lowest and highest post of the tile.
     [[nodiscard]] HeightRange range() const noexcept;

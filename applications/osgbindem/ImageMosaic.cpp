@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::uint8_t kOpaque = 255;
 
-bool isColour(GDALDataset& dataset) {
-    return dataset.GetRasterCount() >= 3;
-}
-
 constexpr int kSmallest = 16;
 constexpr int kLargest = 256;
 
@@ -102,40 +98,16 @@ bool ImageSource::load(const RectDeg& rect, int mostPixels) {
 }
 
 ImageSource::Patch ImageSource::read(const PixelWindow& window, int mostPixels) const {
-    GDALDataset& dataset = _layer->dataset();
     Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
-    patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), kOpaque);
-    for (int channel = 0; channel < 3; ++channel) {
-        readBand(*dataset.GetRasterBand(isColour(dataset) ? channel + 1 : 1), patch, patch.pixels.data() + channel, 4);
-    }
-    readAlpha(patch);
-    return patch;
-}
-
-void ImageSource::readBand(GDALRasterBand& band, const Patch& patch, std::uint8_t* target, int bytesApart) const {
+    patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
     GDALRasterIOExtraArg extra;
     INIT_RASTERIO_EXTRA_ARG(extra);
     extra.eResampleAlg = GRIORA_Average;
-    const PixelWindow& window = patch.window;
-    const CPLErr error =
-        band.RasterIO(GF_Read, window.column, window.row, window.width, window.height, target, patch.width,
-                      patch.height, GDT_Byte, bytesApart, static_cast<GSpacing>(bytesApart) * patch.width, &extra);
+    const CPLErr error = _layer->dataset().RasterIO(GF_Read, window.column, window.row, window.width, window.height,
+                                                    patch.pixels.data(), patch.width, patch.height, GDT_Byte, 4,
+                                                    nullptr, 4, GSpacing{4} * patch.width, 1, &extra);
     if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
-}
-
-void ImageSource::readAlpha(Patch& patch) const {
-    GDALDataset& dataset = _layer->dataset();
-    GDALRasterBand& first = *dataset.GetRasterBand(1);
-    if (first.GetMaskFlags() == GMF_ALL_VALID) return;
-    // Where each band has a nodata value of its own, a pixel is missing only when all of its colours are.
-    const int bands = isColour(dataset) && first.GetMaskFlags() == GMF_NODATA ? 3 : 1;
-    std::vector<std::uint8_t> alpha(patch.pixels.size() / 4);
-    std::vector<std::uint8_t> mask(alpha.size());
-    for (int band = 1; band <= bands; ++band) {
-        readBand(*dataset.GetRasterBand(band)->GetMaskBand(), patch, mask.data(), 1);
-        for (std::size_t i = 0; i < mask.size(); ++i) alpha[i] = std::max(alpha[i], mask[i]);
-    }
-    for (std::size_t i = 0; i < alpha.size(); ++i) patch.pixels[4 * i + 3] = alpha[i];
+    return patch;
 }
 
 const std::uint8_t* ImageSource::find(int column, int row) const noexcept {

@@ -59,8 +59,6 @@ private:
     };
 
     [[nodiscard]] Patch read(const PixelWindow& window, int mostPixels) const;
-    void readBand(GDALRasterBand& band, const Patch& patch, std::uint8_t* target, int bytesApart) const;
-    void readAlpha(Patch& patch) const;
     [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept;
 
     std::unique_ptr<RasterLayer> _layer;

@@ -52,7 +52,7 @@ public:
         if (hasNodata != nullptr) *hasNodata = TRUE;
         return kMissing;
     }
-    [[nodiscard]] const RasterMarks& marks() const noexcept { return _marks; }
+    [[nodiscard]] RasterLook& look() noexcept { return _look; }
 
 protected:
     CPLErr IReadBlock(int column, int row, void* data) override {
@@ -100,16 +100,19 @@ private:
             const double metres = number * _code.scale + _code.offset;
             const bool isHeight = std::abs(metres) <= _code.highest;
             line[i] = isMissing || !isHeight ? kMissing : metres;
-            if (isMissing || isHeight || std::isnan(number)) continue;
-            ++_marks.count;
-            _marks.last = number;
+            ++_look.posts;
+            if (!isMissing && isHeight) continue;
+            ++_look.missing;
+            if (isMissing || std::isnan(number)) continue;
+            ++_look.marks;
+            _look.lastMark = number;
         }
     }
 
     GDALRasterBand& _numbers;
     HeightCode _code;
     bool _isSingle;
-    RasterMarks _marks;
+    RasterLook _look;
 };
 
 class HeightDataset final : public GDALDataset {
@@ -187,7 +190,7 @@ GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, st
     return band;
 }
 
-/// Numbers of the bands in the order red, green, blue, alpha, or grey, alpha.
+/// Numbers of the bands with red, green and blue.
 std::vector<int> colourBands(GDALDataset& file) {
     const int count = file.GetRasterCount();
     const auto bandOf = [&](GDALColorInterp colour) {
@@ -195,14 +198,11 @@ std::vector<int> colourBands(GDALDataset& file) {
             if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
         return 0;
     };
-    std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    const std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    if (std::count(bands.begin(), bands.end(), 0) == 0) return bands;
     const int alpha = bandOf(GCI_AlphaBand);
-    if (std::count(bands.begin(), bands.end(), 0) > 0) {
-        const int colours = alpha == 0 ? count : alpha - 1;
-        bands = colours >= 3 ? std::vector{1, 2, 3} : std::vector{std::max(1, bandOf(GCI_GrayIndex))};
-    }
-    if (alpha != 0) bands.push_back(alpha);
-    return bands;
+    if ((alpha == 0 ? count : alpha - 1) >= 3) return {1, 2, 3};
+    return std::vector(3, std::max(1, bandOf(GCI_GrayIndex)));
 }
 
 /// The number that is shown at full brightness: the end of the usual range that holds the highest one.
@@ -256,36 +256,53 @@ GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGR
     return GdalDataset(new HeightDataset(band, code, horizontal));
 }
 
-RasterMarks marksOf(GDALDataset& heights) {
-    return static_cast<HeightBand*>(heights.GetRasterBand(1))->marks();
+RasterLook& lookOf(GDALDataset& heights) {
+    return static_cast<HeightBand*>(heights.GetRasterBand(1))->look();
 }
 
 GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
-    CPLStringList words(CSLTokenizeString("-of VRT -ot Byte"));
+    const auto translated = [&](GDALDataset& source, CPLStringList words) {
+        GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
+        int usageError = 0;
+        GDALDatasetH result = GDALTranslate("", GDALDataset::ToHandle(&source), options, &usageError);
+        GDALTranslateOptionsFree(options);
+        if (result == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
+        return GDALDataset::FromHandle(result);
+    };
     if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
-        words.AddString("-expand");
-        words.AddString("rgba");
-    } else {
-        const std::vector<int> bands = colourBands(file);
-        bool isThere = bands.size() >= static_cast<std::size_t>(std::min(file.GetRasterCount(), 4));
-        for (std::size_t i = 0; i < bands.size(); ++i) {
-            isThere = isThere && bands[i] == static_cast<int>(i) + 1 &&
-                      file.GetRasterBand(bands[i])->GetRasterDataType() == GDT_Byte;
-            words.AddString("-b");
-            words.AddString(std::to_string(bands[i]).c_str());
-        }
-        if (isThere) return nullptr;
-        if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
-            for (const char* word : {"-scale", "0", CPLSPrintf("%.17g", brightest(file, bands, path)), "0", "255"})
-                words.AddString(word);
-        }
+        return GdalDataset(translated(file, CPLStringList(CSLTokenizeString("-of VRT -ot Byte -expand rgba"))));
     }
-    GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
-    int usageError = 0;
-    GDALDatasetH translated = GDALTranslate("", GDALDataset::ToHandle(&file), options, &usageError);
-    GDALTranslateOptionsFree(options);
-    if (translated == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
-    return GdalDataset(GDALDataset::FromHandle(translated));
+    std::vector<int> bands = colourBands(file);
+    CPLStringList colours(CSLTokenizeString("-of VRT -ot Byte -colorinterp red,green,blue,alpha -a_nodata none"));
+    if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
+        const std::string most = CPLSPrintf("%.17g", brightest(file, bands, path));
+        for (const char* option : {"-scale_1", "-scale_2", "-scale_3"})
+            for (const char* word : {option, "0", most.c_str(), "0", "255"}) colours.AddString(word);
+    }
+    GDALDataset* source = &file;
+    if (file.GetRasterBand(bands.front())->GetMaskFlags() == GMF_NODATA && bands.front() != bands.back()) {
+        // A pixel is missing only when all of its colours are.
+        CPLStringList words(CSLTokenizeString("-of VRT"));
+        std::string numbers = "NODATA_VALUES=";
+        for (const int band : bands) {
+            words.AddString("-b");
+            words.AddString(std::to_string(band).c_str());
+            numbers += CPLSPrintf("%.17g ", file.GetRasterBand(band)->GetNoDataValue());
+        }
+        words.AddString("-mo");
+        words.AddString(numbers.c_str());
+        source = translated(file, words);
+        bands = {1, 2, 3};
+    }
+    for (const int band : bands) {
+        colours.AddString("-b");
+        colours.AddString(std::to_string(band).c_str());
+    }
+    colours.AddString("-b");
+    colours.AddString(("mask," + std::to_string(bands.front())).c_str());
+    GdalDataset result(translated(*source, colours));
+    if (source != &file) source->ReleaseRef();  // the result has a reference of its own
+    return result;
 }
 
 }  // namespace osgbindem

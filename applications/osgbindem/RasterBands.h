@@ -26,10 +26,13 @@ struct RasterOptions {
     std::optional<int> band;
 };
 
-/// Numbers that a raster does not declare to be missing, and that no terrain has; and the last of them.
-struct RasterMarks {
-    double count = 0.0;
-    double last = 0.0;
+/// What was read of a raster's heights.
+struct RasterLook {
+    double posts = 0.0;
+    double missing = 0.0;
+    /// Numbers that the file does not declare to be missing, and that no terrain has; and the last of them.
+    double marks = 0.0;
+    double lastMark = 0.0;
 };
 
 /// The heights of a raster as one band of metres, with NaN for missing heights, so that whatever is made of it mixes no
@@ -38,11 +41,10 @@ struct RasterMarks {
 [[nodiscard]] GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options,
                                     const OGRSpatialReference& horizontal, std::vector<std::string>& notes);
 
-/// What has been read so far of such heights.
-[[nodiscard]] RasterMarks marksOf(GDALDataset& heights);
+/// What has been read so far of such heights, to be reset.
+[[nodiscard]] RasterLook& lookOf(GDALDataset& heights);
 
-/// The colours of a raster as bands of bytes: red, green, blue or grey, and alpha where there is any. `file`: has to
-/// last as long. Returns: an empty pointer where the file has them so. Throws Failure.
+/// The colours of a raster as bands of bytes: red, green, blue and alpha. `file`: has to last as long. Throws Failure.
 [[nodiscard]] GdalDataset coloursOf(GDALDataset& file, const std::string& path);
 
 }  // namespace osgbindem

@@ -5,6 +5,7 @@
 
 #include "Failure.h"
 #include "Interruption.h"
+#include "WarpedPlace.h"
 
 #include <cpl_string.h>
 #include <ogr_spatialref.h>
@@ -130,14 +131,6 @@ bool isOfEarth(const OGRSpatialReference& reference) {
     return std::abs(reference.GetSemiMajor() / wgs84().GetSemiMajor() - 1.0) < kMost;
 }
 
-OGRSpatialReference horizontalOf(const OGRSpatialReference& reference) {
-    OGRSpatialReference horizontal(reference);
-    horizontal.StripVertical();
-    horizontal.DemoteTo2D(nullptr);
-    horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    return horizontal;
-}
-
 std::string verticalOf(const OGRSpatialReference& reference) {
     if (reference.IsCompound() == 0) return {};
     const OGR_SRSNode* vertical = reference.GetAttrNode("VERT_CS");
@@ -152,45 +145,39 @@ std::string verticalOf(const OGRSpatialReference& reference) {
 
 }  // namespace
 
-RasterFile::RasterFile(const RasterOptions& options) : _path(options.path) {
-    open(options, -1);
-    const int overview = options.spacingDeg > 0.0 ? overviewFor(options.spacingDeg) : -1;
-    if (overview >= 0) open(options, overview);
+RasterFile::RasterFile(RasterOptions options) : _options(std::move(options)) {
+    open(-1);
+    const int number = overview();
+    if (number >= 0) open(number);
 }
 
-void RasterFile::open(const RasterOptions& options, int overview) {
+void RasterFile::open(int overview) {
     _decoded.reset();
-    _file = opened(_path, overview);
-    requireGeoreferencing(*_file, _path);
-    takeReference(options);
-    OGRSpatialReference horizontal;
-    if (!_horizontal.empty()) horizontal.importFromWkt(_horizontal.c_str());
-    horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (options.isElevation) {
-        _notes.clear();
-        _decoded = heightsOf(*_file, options, horizontal, _notes);
-    } else {
-        _decoded = coloursOf(*_file, _path);
-    }
+    _file = opened(path(), overview);
+    requireGeoreferencing(*_file, path());
+    takeReference();
+    _notes.clear();
+    _decoded = _options.isElevation ? heightsOf(*_file, _options, _horizontal, _notes) : coloursOf(*_file, path());
     place();
 }
 
-void RasterFile::takeReference(const RasterOptions& options) {
+void RasterFile::takeReference() {
     _target = wgs84();
     const OGRSpatialReference* reference = referenceOf(*_file);
     if (reference == nullptr) return;
     _vertical = verticalOf(*reference);
-    _horizontal = wktOf(horizontalOf(*reference));
+    _horizontal = *reference;
+    _horizontal.StripVertical();
+    _horizontal.DemoteTo2D(nullptr);
+    _horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (reference->IsLocal() != 0) {
-        throw Failure("the reference system of \"" + _path + "\" is local; give one that has a place on the globe");
+        throw Failure("the reference system of \"" + path() + "\" is local; give one that has a place on the globe");
     }
-    if (!options.isWgs84) {
-        OGRSpatialReference globe;
-        globe.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
-        globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        _target = globe;
+    if (!_options.isWgs84) {
+        _target.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
+        _target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     } else if (!isOfEarth(*reference)) {
-        throw Failure("\"" + _path + "\" is of another body than the globe; give rasters of one body, or --radii " +
+        throw Failure("\"" + path() + "\" is of another body than the globe; give rasters of one body, or --radii " +
                       CPLSPrintf("%.9g %.9g", reference->GetSemiMajor(), reference->GetSemiMinor()));
     }
 }
@@ -201,14 +188,11 @@ bool RasterFile::isNorthUp() const noexcept {
 
 bool RasterFile::isInDegreesOfGlobe() const {
     if (!_hasTransform || !isUnturned(_transform)) return false;
-    if (_horizontal.empty()) return true;
-    OGRSpatialReference own;
-    own.importFromWkt(_horizontal.c_str());
-    own.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (own.IsGeographic() == 0 || own.IsDerivedGeographic() != 0) return false;
-    if (own.IsSame(&_target) != 0) return true;
-    const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&own, &_target));
-    if (!way) throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
+    if (_horizontal.IsEmpty()) return true;
+    if (_horizontal.IsGeographic() == 0 || _horizontal.IsDerivedGeographic() != 0) return false;
+    if (_horizontal.IsSame(&_target) != 0) return true;
+    const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&_horizontal, &_target));
+    if (!way) throw Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
     constexpr double kMost = 0.01;  // pixels
     for (const double u : {0.0, 0.5, 1.0}) {
         for (const double v : {0.0, 0.5, 1.0}) {
@@ -235,31 +219,26 @@ void RasterFile::place() {
         _eastDeg = _transform[1];
         _northDeg = std::abs(_transform[5]);
     } else {
-        placeWarped();
+        const WarpedPlace place = warpedPlaceOf(dataset(), _target, path());
+        _extent = place.extent;
+        _eastDeg = place.eastDeg;
+        _northDeg = place.northDeg;
     }
     constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
     if (!(_eastDeg >= kFinestDeg && _northDeg >= kFinestDeg)) {
-        throw Failure("the pixels of \"" + _path + "\" have no size on a globe; correct its georeferencing");
+        throw Failure("the pixels of \"" + path() + "\" have no size on a globe; correct its georeferencing");
     }
     constexpr double kMostTurns = 2.0;
     if (_extent.east - _extent.west > kMostTurns * 360.0 || _eastDeg > 360.0 || _northDeg > 180.0) {
-        throw Failure("\"" + _path + "\" or one of its pixels is larger than a globe; correct its georeferencing");
+        throw Failure("\"" + path() + "\" or one of its pixels is larger than a globe; correct its georeferencing");
     }
     if (!(_extent.south < 90.0 && _extent.north > -90.0)) {
-        throw Failure("no part of \"" + _path + "\" lies between latitudes -90 and 90; correct its georeferencing");
+        throw Failure("no part of \"" + path() + "\" lies between latitudes -90 and 90; correct its georeferencing");
     }
 }
 
-void RasterFile::placeWarped() {
-    const auto place = warpedPlaceOf(PixelTransform(dataset(), _target, _path), dataset().GetRasterXSize(),
-                                     dataset().GetRasterYSize());
-    if (!place) throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
-    _extent = place->extent;
-    _eastDeg = place->eastDeg;
-    _northDeg = place->northDeg;
-}
-
-int RasterFile::overviewFor(double spacingDeg) const {
+/// The number of the coarsest that is as fine as needed; -1 without one.
+int RasterFile::overview() const {
     GDALRasterBand& band = *_file->GetRasterBand(1);
     const double fullDeg = std::min(_eastDeg, _northDeg);
     int level = -1;
@@ -269,7 +248,7 @@ int RasterFile::overviewFor(double spacingDeg) const {
         if (overview == nullptr) continue;
         const double deg = fullDeg * std::max(static_cast<double>(band.GetXSize()) / overview->GetXSize(),
                                               static_cast<double>(band.GetYSize()) / overview->GetYSize());
-        if (deg <= coarsestDeg || deg > spacingDeg * (1.0 + kSlack)) continue;
+        if (deg <= coarsestDeg || deg > _options.spacingDeg * (1.0 + kSlack)) continue;
         coarsestDeg = deg;
         level = i;
     }
@@ -279,37 +258,25 @@ int RasterFile::overviewFor(double spacingDeg) const {
 RasterLook RasterFile::look() const {
     // GDAL reads these posts from an overview where there is one, so that a server sends little.
     constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
+    GDALRasterBand& band = *dataset().GetRasterBand(1);
     const int most = _file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
-    GDALRasterBand& band = *_decoded->GetRasterBand(1);
     const int width = std::min(most, band.GetXSize());
     const int rows = std::min(most, band.GetYSize());
-    RasterLook look;
-    look.posts = static_cast<double>(width) * rows;
-    look.share = look.posts / (static_cast<double>(band.GetXSize()) * band.GetYSize());
-    const double before = marksOf(*_decoded).count;
-    std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows));
-    const CPLErr error = band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), heights.data(), width, rows,
-                                       GDT_Float64, 0, 0, nullptr);
-    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
-    look.missing = static_cast<double>(
-        std::count_if(heights.begin(), heights.end(), [](double metres) { return std::isnan(metres); }));
-    look.marks = marksOf(*_decoded).count - before;
-    look.lastMark = marksOf(*_decoded).last;
-    return look;
-}
-
-bool RasterFile::hasHeights(const RasterLook& look) const {
-    if (look.missing < look.posts) return true;
-    GDALRasterBand& band = *dataset().GetRasterBand(1);
-    std::vector<double> row(static_cast<std::size_t>(band.GetXSize()));
-    for (int y = 0; look.share < 1.0 && y < band.GetYSize(); ++y) {
+    std::vector<double> heights(static_cast<std::size_t>(std::max(width, band.GetXSize())) *
+                                static_cast<std::size_t>(rows));
+    const auto read = [&](int row, int rowsRead, int columns, int rowsWanted) {
         throwIfStopRequested();
-        const CPLErr error = band.RasterIO(GF_Read, 0, y, band.GetXSize(), 1, row.data(), band.GetXSize(), 1,
-                                           GDT_Float64, 0, 0, nullptr);
+        const CPLErr error = band.RasterIO(GF_Read, 0, row, band.GetXSize(), rowsRead, heights.data(), columns,
+                                           rowsWanted, GDT_Float64, 0, 0, nullptr);
         if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
-        if (std::any_of(row.begin(), row.end(), [](double metres) { return !std::isnan(metres); })) return true;
-    }
-    return false;
+    };
+    RasterLook& look = lookOf(dataset());
+    look = {};
+    read(0, band.GetYSize(), width, rows);
+    const bool isAll = look.posts == posts();
+    for (int row = 0; !isAll && look.missing == look.posts && row < band.GetYSize(); ++row)
+        read(row, 1, band.GetXSize(), 1);
+    return look;
 }
 
 std::optional<Radii> foreignRadiiOf(const std::string& path) {

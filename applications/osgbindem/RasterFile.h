@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "PixelTransform.h"
 #include "RasterBands.h"
 #include "RasterGrid.h"
 
@@ -17,25 +16,16 @@ namespace osgbindem {
 
 using GeoTransform = std::array<double, 6>;
 
-/// What was looked at of an elevation raster: all of it, or evenly spread posts of a large one.
-struct RasterLook {
-    double share = 1.0;
-    double posts = 0.0;
-    double missing = 0.0;
-    /// Numbers that the file does not declare to be missing, and that no terrain has.
-    double marks = 0.0;
-    double lastMark = 0.0;
-};
-
 /// A raster file opened with GDAL. Elevation is one band of metres, with NaN for all that the file marks as missing in
-/// any way; colours are bands of bytes, red, green, blue or grey, and alpha where there is any.
+/// any way; colours are bands of bytes, red, green, blue and alpha.
 class RasterFile final {
 public:
     /// Throws Failure.
-    explicit RasterFile(const RasterOptions& options);
+    explicit RasterFile(RasterOptions options);
 
-    [[nodiscard]] const std::string& path() const noexcept { return _path; }
-    [[nodiscard]] GDALDataset& dataset() const noexcept { return _decoded ? *_decoded : *_file; }
+    [[nodiscard]] const RasterOptions& options() const noexcept { return _options; }
+    [[nodiscard]] const std::string& path() const noexcept { return _options.path; }
+    [[nodiscard]] GDALDataset& dataset() const noexcept { return *_decoded; }
     /// As the file has it.
     [[nodiscard]] GDALDataset& file() const noexcept { return *_file; }
 
@@ -52,7 +42,7 @@ public:
     [[nodiscard]] double northDeg() const noexcept { return _northDeg; }
 
     /// The reference system without its vertical part, and that part; empty without one.
-    [[nodiscard]] const std::string& horizontal() const noexcept { return _horizontal; }
+    [[nodiscard]] const OGRSpatialReference& horizontal() const noexcept { return _horizontal; }
     [[nodiscard]] const std::string& vertical() const noexcept { return _vertical; }
     /// Longitude and latitude in degrees on the globe.
     [[nodiscard]] const OGRSpatialReference& target() const noexcept { return _target; }
@@ -60,22 +50,23 @@ public:
     /// What the user should know: units that are no metres, the band of several.
     [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return _notes; }
 
-    /// Requires: elevation. Throws Failure.
+    /// Looks at all of the raster, or at evenly spread posts of a large one; at all of it, too, while none has a
+    /// height. Requires: elevation. Throws Failure.
     [[nodiscard]] RasterLook look() const;
-    /// Reads all of the raster only where the look has found nothing.
-    [[nodiscard]] bool hasHeights(const RasterLook& look) const;
+    [[nodiscard]] double posts() const {
+        return static_cast<double>(_file->GetRasterXSize()) * _file->GetRasterYSize();
+    }
 
 private:
-    void open(const RasterOptions& options, int overview);
-    void takeReference(const RasterOptions& options);
+    void open(int overview);
+    void takeReference();
     void place();
-    void placeWarped();
     [[nodiscard]] bool isInDegreesOfGlobe() const;
-    [[nodiscard]] int overviewFor(double spacingDeg) const;
+    [[nodiscard]] int overview() const;
 
-    std::string _path;
+    RasterOptions _options;
     GdalDataset _file;
-    /// The metres or colours that are made of the file; empty where the file itself has them.
+    /// The metres or colours that are made of the file.
     GdalDataset _decoded;
     bool _isPlain = false;
     bool _hasTransform = false;
@@ -83,7 +74,7 @@ private:
     RectDeg _extent;
     double _eastDeg = 0.0;
     double _northDeg = 0.0;
-    std::string _horizontal;
+    OGRSpatialReference _horizontal;
     std::string _vertical;
     OGRSpatialReference _target;
     std::vector<std::string> _notes;

@@ -101,26 +101,17 @@ std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const no
     return cell;
 }
 
-std::vector<RasterGrid::Span> RasterGrid::spans(int first, int last) const {
-    std::vector<Span> found;
-    if (last < first) return found;
-    if (_isGlobal && last - first >= _width) return {{0, _width}};
+std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const {
+    const int first = std::max(firstRow, 0);
+    const int rows = std::min(lastRow, _height - 1) - first + 1;
+    if (rows <= 0 || lastColumn < firstColumn) return {};
+    if (_isGlobal && lastColumn - firstColumn >= _width) return {{0, first, _width, rows}};
+    std::vector<PixelWindow> result;
     const double turn = _isGlobal ? _width : 360.0 / _dx;
     for (int k = -2; k <= 2; ++k) {
-        const int a = std::max(0, floorOf(first + k * turn));
-        const int b = std::min(_width - 1, ceilOf(last + k * turn));
-        if (a <= b) found.push_back({a, b - a + 1});
-    }
-    return found;
-}
-
-std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const {
-    std::vector<PixelWindow> result;
-    firstRow = std::max(firstRow, 0);
-    lastRow = std::min(lastRow, _height - 1);
-    if (firstRow > lastRow) return result;
-    for (const Span& span : spans(firstColumn, lastColumn)) {
-        result.push_back({span.first, firstRow, span.count, lastRow - firstRow + 1});
+        const int a = std::max(0, floorOf(firstColumn + k * turn));
+        const int b = std::min(_width - 1, ceilOf(lastColumn + k * turn));
+        if (a <= b) result.push_back({a, first, b - a + 1, rows});
     }
     return result;
 }

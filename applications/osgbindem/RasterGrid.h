@@ -55,6 +55,7 @@ struct PostCell {
 /// that goes round the globe has no seam.
 class RasterGrid final {
 public:
+    RasterGrid() = default;
     /// The geotransform in GDAL's order, without rotation and with columns running eastward; rows may run either way.
     RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept;
 
@@ -92,19 +93,14 @@ public:
     [[nodiscard]] double rowOf(double latitudeDeg) const noexcept { return (latitudeDeg - _firstLatitude) / _dy; }
 
 private:
-    struct Span {
-        int first = 0;
-        int count = 0;
-    };
-    [[nodiscard]] std::vector<Span> spans(int first, int last) const;
     [[nodiscard]] std::vector<PixelWindow> windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
 
-    int _width;
-    int _height;
-    double _dx;
-    double _dy;
-    double _firstLongitude;
-    double _firstLatitude;
+    int _width = 1;
+    int _height = 1;
+    double _dx = 1.0;
+    double _dy = -1.0;
+    double _firstLongitude = 0.0;
+    double _firstLatitude = 0.0;
     bool _isGlobal = false;
 };
 

@@ -68,12 +68,14 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
-/// Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
-std::vector<double> takeScales(Arguments& arguments) {
+void takeDems(Arguments& arguments) {
+    std::vector<std::string>& rasters = arguments.dems;
     std::vector<double> scales;
-    std::vector<std::string> rasters;
+    bool isRaster = false;
     for (const std::string& word : arguments.scales) {
-        const auto scale = rasters.empty() ? metresPerUnit(word) : std::nullopt;
+        // Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
+        const auto scale = isRaster ? std::nullopt : metresPerUnit(word);
+        isRaster = !scale;
         if (scale) {
             scales.push_back(*scale);
         } else if (mayExist(word)) {
@@ -82,21 +84,15 @@ std::vector<double> takeScales(Arguments& arguments) {
             throw UsageError("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
         }
     }
-    arguments.dems.insert(arguments.dems.end(), rasters.begin(), rasters.end());
-    return scales;
-}
-
-void takeDems(Arguments& arguments) {
-    const std::vector<double> scales = takeScales(arguments);
-    if (arguments.dems.empty()) throw UsageError("no elevation raster on the command line; name at least one");
-    if (scales.size() > 1 && scales.size() != arguments.dems.size()) {
+    if (rasters.empty()) throw UsageError("no elevation raster on the command line; name at least one");
+    if (scales.size() > 1 && scales.size() != rasters.size()) {
         throw UsageError(std::to_string(scales.size()) + " units in --height-unit for " +
-                         std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
+                         std::to_string(rasters.size()) + " rasters; give one for all or one for each");
     }
-    for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
+    for (std::size_t i = 0; i < rasters.size(); ++i) {
         std::optional<double> scale;
         if (!scales.empty()) scale = scales[scales.size() == 1 ? 0 : i];
-        arguments.settings.dems.push_back({arguments.dems[i], scale});
+        arguments.settings.dems.push_back({rasters[i], scale});
     }
 }
 

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace osgbindem {
 
@@ -75,21 +73,6 @@ namespace {
 // one.
 constexpr double kCliff = 0.25;
 
-/// Unit vectors in ECEF at a position.
-struct TileFrame {
-    explicit TileFrame(const osgAnalyticBin::core::Geodetic& position) noexcept {
-        const double sp = std::sin(position.latitude);
-        const double cp = std::cos(position.latitude);
-        const double sl = std::sin(position.longitude);
-        const double cl = std::cos(position.longitude);
-        up = {cp * cl, cp * sl, sp};
-        north = {-sp * cl, -sp * sl, cp};
-    }
-
-    glm::dvec3 up;
-    glm::dvec3 north;
-};
-
 void raise(double& value, double candidate) {
     value = std::max(value, candidate);
 }
@@ -104,11 +87,17 @@ struct Gap {
     double reach;
 };
 
-Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const TileFrame& frame, Edge edge) {
-    const double sign = edge == Edge::North ? 1.0 : -1.0;
-    const bool isParallel = edge == Edge::South || edge == Edge::North;
+Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const osgAnalyticBin::core::Geodetic& position,
+               Edge edge) {
+    const double sp = std::sin(position.latitude);
+    const double cp = std::cos(position.latitude);
+    const double sl = std::sin(position.longitude);
+    const double cl = std::cos(position.longitude);
+    const glm::dvec3 up{cp * cl, cp * sl, sp};
+    const glm::dvec3 north{-sp * cl, -sp * sl, cp};
     const glm::dvec3 way = other - own;
-    return {-glm::dot(way, frame.up), isParallel ? sign * glm::dot(way, frame.north) : 0.0};
+    const double outward = edge == Edge::North ? 1.0 : edge == Edge::South ? -1.0 : 0.0;
+    return {-glm::dot(way, up), outward * glm::dot(way, north)};
 }
 
 PostId firstPostOf(const TileId& tile, const TileLayout& layout, Edge edge) {
@@ -144,7 +133,7 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
         own.heights.push_back(heights.at(column, row));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
-    compareWithFiner(own, skirt);
+    compareWithFiner(own, tile.level, 0, skirt);
     const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
@@ -157,61 +146,40 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
     return skirt;
 }
 
-void SkirtMeasure::compareWithFiner(const Line& own, EdgeSkirt& skirt) {
-    // Tiles along the edge with finer ones below them, on one of its sides, counted from its first post.
-    std::vector<std::int64_t> parents{0};
-    for (int level = own.tile.level; !parents.empty(); ++level) {
-        parents.erase(std::remove_if(parents.begin(), parents.end(),
-                                     [&](std::int64_t place) {
-                                         const TileId tile = own.tileAt(level, place);
-                                         const auto other = tile.neighbour(own.edge);
-                                         return !_depths.hasChildren(tile) && !(other && _depths.hasChildren(*other));
-                                     }),
-                      parents.end());
-        if (!parents.empty()) compareWithFiner(own, level + 1, parents, skirt);
-        std::vector<std::int64_t> children;
-        for (const std::int64_t place : parents) children.insert(children.end(), {2 * place, 2 * place + 1});
-        parents = std::move(children);
-    }
-}
-
-void SkirtMeasure::compareWithFiner(const Line& own, int level, const std::vector<std::int64_t>& parents,
-                                    EdgeSkirt& skirt) {
-    struct Segment {
+void SkirtMeasure::compareWithFiner(const Line& own, int level, std::int64_t place, EdgeSkirt& skirt) {
+    const TileId tile = own.tileAt(level, place);
+    const auto other = tile.neighbour(own.edge);
+    if (!_depths.hasChildren(tile) && !(other && _depths.hasChildren(*other))) return;
+    const int shift = level + 1 - own.tile.level;
+    const std::int64_t parts = std::int64_t{1} << shift;
+    const std::int64_t first = place * 2 * _layout.cells();  // post of the children's level
+    const std::int64_t end = first + 2 * _layout.cells();
+    for (std::int64_t segment = first >> shift; (segment << shift) < end; ++segment) {
+        const auto i = static_cast<std::size_t>(segment);
+        const std::array<double, 2> ends{own.heights[i], own.heights[i + 1]};
         double drop = 0.0;
         double lean = 0.0;
-        double lowest = 0.0;
-    };
-    std::map<std::size_t, Segment> segments;
-    const int shift = level - own.tile.level;
-    const std::int64_t parts = std::int64_t{1} << shift;
-    const std::int64_t posts = std::int64_t{2} * _layout.cells();  // along a parent's edge
-    for (const std::int64_t parent : parents) {
-        // Even posts belong to the levels between, which were compared before.
-        for (std::int64_t place = parent * posts + 1; place < (parent + 1) * posts; place += 2) {
-            const auto i = static_cast<std::size_t>(place >> shift);
-            const double ends = std::min(own.heights[i], own.heights[i + 1]);
-            Segment& segment = segments.try_emplace(i, Segment{0.0, 0.0, ends}).first->second;
-            const PostId post = own.post(level, (own.along() << shift) + place, own.across() << shift);
-            const double share = static_cast<double>(place % parts) / static_cast<double>(parts);
+        double lowest = std::min(ends[0], ends[1]);
+        // Even posts belong to the levels between, which are compared by themselves.
+        for (std::int64_t along = std::max(first, segment << shift) + 1; along < std::min(end, (segment + 1) << shift);
+             along += 2) {
+            const PostId post = own.post(level + 1, (own.along() << shift) + along, own.across() << shift);
+            const double share = static_cast<double>(along % parts) / static_cast<double>(parts);
             const double height = _mosaic.height(_layout.position(post));
             const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
                                        _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
-                                       TileFrame(_layout.geodetic(post, 0.0)), own.edge);
-            raise(segment.drop, gap.drop);
-            raise(segment.lean, gap.reach);
-            segment.lowest = std::min(segment.lowest, height);
+                                       _layout.geodetic(post, 0.0), own.edge);
+            raise(drop, gap.drop);
+            raise(lean, gap.reach);
+            lowest = std::min(lowest, height);
+        }
+        const bool isCliff = drop > kCliff * std::abs(ends[1] - ends[0]) && lowest > std::min(ends[0], ends[1]) - drop;
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+            raise(skirt.depth[i + side], isCliff ? ends[side] - lowest : drop);
+            raise(skirt.lean[i + side], lean);
         }
     }
-    for (const auto& [i, segment] : segments) {
-        const std::array<double, 2> ends{own.heights[i], own.heights[i + 1]};
-        const bool isCliff = segment.drop > kCliff * std::abs(ends[1] - ends[0]) &&
-                             segment.lowest > std::min(ends[0], ends[1]) - segment.drop;
-        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-            raise(skirt.depth[i + end], isCliff ? ends[end] - segment.lowest : segment.drop);
-            raise(skirt.lean[i + end], segment.lean);
-        }
-    }
+    for (const std::int64_t child : {2 * place, 2 * place + 1}) compareWithFiner(own, level + 1, child, skirt);
 }
 
 void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt) {
@@ -225,7 +193,7 @@ void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& ski
         const glm::dvec3 b = ecef(own.post(level, (along >> shift) + 1, own.across() >> shift));
         const PostId post = own.post(own.tile.level, along, own.across());
         const Gap gap = gapBetween(own.points[i], between(a, b, static_cast<double>(part) / static_cast<double>(parts)),
-                                   TileFrame(_layout.geodetic(post, 0.0)), own.edge);
+                                   _layout.geodetic(post, 0.0), own.edge);
         raise(skirt.depth[i], gap.drop);
         raise(skirt.lean[i], gap.reach);
     }

@@ -69,9 +69,8 @@ private:
     struct Line;
 
     [[nodiscard]] EdgeSkirt measureEdge(const HeightGrid& heights, Edge edge);
-    /// With all levels of tiles that stand along the edge, and only where they do.
-    void compareWithFiner(const Line& own, EdgeSkirt& skirt);
-    void compareWithFiner(const Line& own, int level, const std::vector<std::int64_t>& parents, EdgeSkirt& skirt);
+    /// With the tiles below those at a place along the edge, see Line::tileAt(), and only where there are any.
+    void compareWithFiner(const Line& own, int level, std::int64_t place, EdgeSkirt& skirt);
     void compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt);
     [[nodiscard]] glm::dvec3 ecef(const PostId& post);
 

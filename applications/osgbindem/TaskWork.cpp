@@ -7,17 +7,20 @@
 #include "Interruption.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <future>
 #include <iostream>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::stopRequested;
-using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
@@ -45,7 +48,7 @@ void split(const Task& task, double most, const DemMosaic& mosaic, const TileLay
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     const auto known = site.state.find(task.tile, site.layout);
     if (known && known->files == site.files.sumBelow(task.tile)) {
-        site.progress.addKnown(task.weight);
+        site.progress.add(task.weight, true);
         return;
     }
     double left = task.weight;
@@ -61,24 +64,40 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     site.progress.add(left);
 }
 
-void work(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
-    TileBuilder builder(site.settings, site.layout, site.files);
-    const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
-    builder.setFinishedTasks(standing);
-    while (const auto task = tasks.next()) {
-        doTask(*task, site, builder);
-        tasks.finish();
+using Work = std::function<void(TileBuilder& builder, const FinishedTasks& standing)>;
+
+/// Does `work` in each thread with a builder of its own.
+void inThreads(const Site& site, const Glance& glance, const Work& work) {
+    std::mutex mutex;
+    std::exception_ptr error;
+    std::atomic<bool> hasFailed{false};
+    const auto guarded = [&](const auto& act) {
+        try {
+            act();
+        } catch (...) {
+            const std::lock_guard<std::mutex> guard(mutex);
+            if (!error) error = std::current_exception();
+            hasFailed.store(true);
+            stopRequested.store(true);  // the other threads need not go on
+        }
+    };
+    std::vector<std::future<void>> threads;
+    for (int i = 0; i < site.settings.threads; ++i) {
+        threads.push_back(std::async(std::launch::async, guarded, [&] {
+            TileBuilder builder(site.settings, site.layout, site.files);
+            const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
+            builder.setFinishedTasks(standing);
+            work(builder, standing);
+        }));
     }
-    if (!starts || tasks.hasFailed()) return;
-    std::set<TileId> done;
-    for (const Task& task : plan) done.insert(task.tile);
-    builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
-        if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
-        auto record = site.state.find(tile, site.layout);
-        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
-        return std::move(record->tile);
-    });
-    starts->build(builder);
+    for (const auto& thread : threads) {
+        if (!glance) thread.wait();
+        while (thread.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready) {
+            const bool isStopped = stopRequested;  // before the look at failures, which set it too
+            if (!hasFailed) guarded([&] { glance(isStopped); });
+        }
+    }
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace
@@ -119,66 +138,25 @@ std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
     return tasks;
 }
 
-std::optional<Task> TaskBoard::next() {
-    constexpr std::chrono::milliseconds kGlance{50};  // at whether the user wants to stop
-    std::unique_lock<std::mutex> guard(_mutex);
-    while (!_error && (_isHeld || !isDone())) {
-        throwIfStopRequested();
-        if (_next < _tasks.size()) {
-            ++_busy;
-            return _tasks[_next++];
-        }
-        _changed.wait_for(guard, kGlance);
-    }
-    return std::nullopt;
+void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
+    std::atomic<std::size_t> next{0};
+    inThreads(site, glance, [&](TileBuilder& builder, const FinishedTasks&) {
+        for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
+    });
 }
 
-void TaskBoard::finish() {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    --_busy;
-    _changed.notify_all();
-}
-
-void TaskBoard::release() {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    _isHeld = false;
-    _changed.notify_all();
-}
-
-void TaskBoard::fail(std::exception_ptr error) {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    if (!_error) _error = std::move(error);
-    stopRequested.store(true);  // the other threads need not go on
-    _changed.notify_all();
-}
-
-bool TaskBoard::isFinished() const {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    return isDone();
-}
-
-bool TaskBoard::hasFailed() const {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    return _error != nullptr;
-}
-
-void TaskBoard::rethrow() const {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    if (_error) std::rethrow_exception(_error);
-}
-
-Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks, StartTiles* starts) {
-    Threads threads;
-    for (int i = 0; i < site.settings.threads; ++i) {
-        threads.push_back(std::async(std::launch::async, [&, starts] {
-            try {
-                work(site, plan, tasks, starts);
-            } catch (...) {
-                tasks.fail(std::current_exception());
-            }
-        }));
-    }
-    return threads;
+void buildStarts(const Site& site, const std::vector<Task>& plan, StartTiles& starts) {
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    inThreads(site, nullptr, [&](TileBuilder& builder, const FinishedTasks& standing) {
+        builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
+            if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
+            auto record = site.state.find(tile, site.layout);
+            if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
+            return std::move(record->tile);
+        });
+        starts.build(builder);
+    });
 }
 
 }  // namespace osgbindem

@@ -14,13 +14,9 @@
 #include <cpl_progress.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <cstdio>
-#include <exception>
 #include <functional>
-#include <future>
 #include <mutex>
-#include <optional>
 #include <vector>
 
 namespace osgbindem {
@@ -41,41 +37,23 @@ class Progress final {
 public:
     Progress(bool isShown, double total)
         : _isShown(isShown), _isRow(!_line.isTerminal() || isStartedByMpi()), _total(total) {
-        show();
+        add(0.0);
     }
 
-    void add(double amount) {
+    /// `isKnown`: an earlier run has done it.
+    void add(double amount, bool isKnown = false) {
         const std::lock_guard<std::mutex> guard(_mutex);
         _done += amount;
-        show();
-    }
-    /// What an earlier run has done.
-    void addKnown(double amount) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        _done += amount;
-        _line.skip(amount / _total);
-        show();
+        if (isKnown) _line.skip(amount / _total);
+        if (_isShown && _isRow) GDALTermProgress(std::min(_done / _total, 0.99), nullptr, nullptr);
+        if (_isShown && !_isRow && _line.isDue()) _line.show(_done / _total, "");
     }
     void finish() {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        if (!_isShown) return;
-        if (_isRow) {
-            GDALTermProgress(1.0, nullptr, nullptr);
-        } else {
-            _line.finish(1.0, "");
-        }
+        if (_isShown && _isRow) GDALTermProgress(1.0, nullptr, nullptr);
+        if (_isShown && !_isRow) _line.finish(1.0, "");
     }
 
 private:
-    void show() {
-        if (!_isShown) return;
-        if (_isRow) {
-            GDALTermProgress(std::min(_done / _total, 0.99), nullptr, nullptr);
-        } else if (_line.isDue()) {
-            _line.show(_done / _total, "");
-        }
-    }
-
     std::mutex _mutex;
     osgAnalyticBin::support::ProgressLine _line{stdout};
     const bool _isShown;
@@ -105,40 +83,6 @@ struct Task {
 
 [[nodiscard]] double weightOf(const std::vector<Task>& tasks);
 
-/// The tasks of the plan, for the threads of a program, and what has become of them.
-class TaskBoard final {
-public:
-    explicit TaskBoard(std::vector<Task> tasks) : _tasks(std::move(tasks)) {}
-
-    /// Waits for a task. Returns: nullopt when all are finished, or one has failed. Throws Interrupted.
-    [[nodiscard]] std::optional<Task> next();
-    /// The record of a task is there.
-    void finish();
-    /// Stops all threads. Only the first error counts.
-    void fail(std::exception_ptr error);
-
-    /// Threads that find no task left wait until release(): other programs are not done yet.
-    void hold() { _isHeld = true; }
-    void release();
-
-    /// Whether nothing is left for this program to do.
-    [[nodiscard]] bool isFinished() const;
-    [[nodiscard]] bool hasFailed() const;
-    /// Throws what made the threads stop.
-    void rethrow() const;
-
-private:
-    [[nodiscard]] bool isDone() const { return _next == _tasks.size() && _busy == 0; }
-
-    mutable std::mutex _mutex;
-    std::condition_variable _changed;
-    const std::vector<Task> _tasks;
-    std::size_t _next = 0;
-    int _busy = 0;
-    bool _isHeld = false;
-    std::exception_ptr _error;
-};
-
 /// What the threads share that build or update one database.
 struct Site {
     const Settings& settings;
@@ -150,11 +94,14 @@ struct Site {
     std::function<FinishedTasks(TileBuilder& builder)> standing = nullptr;
 };
 
-/// Threads, which are waited for when they are cleared. Each does tasks as long as there are some, those left out that
-/// an earlier run has done and whose files are whole, then its part of the start tiles, from what all tasks of the plan
-/// have left. What one throws goes to the board.
-using Threads = std::vector<std::future<void>>;
-[[nodiscard]] Threads startThreads(const Site& site, const std::vector<Task>& plan, TaskBoard& tasks,
-                                   StartTiles* starts);
+/// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.
+using Glance = std::function<void(bool isStopped)>;
+
+/// Does tasks in threads, those left out that an earlier run has done and whose files are whole. `glance`: may be null.
+/// Throws what was thrown first.
+void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance);
+
+/// Builds the start tiles in threads, from what all tasks of the plan have left. Throws what was thrown first.
+void buildStarts(const Site& site, const std::vector<Task>& plan, StartTiles& starts);
 
 }  // namespace osgbindem

@@ -182,34 +182,26 @@ VoidFill::Below VoidFill::at(int column, int row) {
 
 void VoidFill::read(Window& window) const {
     const PixelWindow& block = window.block;
-    PixelWindow& posts = window.posts;
     // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
-    const int west = isGlobal() ? block.column - kBorder : std::max(block.column - kBorder, -1);
-    const int east =
-        isGlobal() ? block.column + block.width + kBorder : std::min(block.column + block.width + kBorder, _width + 1);
+    const int most = isGlobal() ? _width : 1;
+    const int west = std::max(block.column - kBorder, -most);
+    const int east = std::min(block.column + block.width + kBorder, _width + most);
     const int first = std::max(block.row - kBorder, -1);
     const int last = std::min(block.row + block.height + kBorder, _height + 1);
-    posts = {west, first, east - west, last - first};
-    window.heights.assign(static_cast<std::size_t>(posts.width) * static_cast<std::size_t>(posts.height),
+    window.posts = {west, first, east - west, last - first};
+    window.heights.assign(static_cast<std::size_t>(window.posts.width) * static_cast<std::size_t>(window.posts.height),
                           std::numeric_limits<double>::quiet_NaN());
-    const int firstInside = std::max(first, 0);
-    const int rows = std::min(last, _height) - firstInside;
     std::vector<double> part;
-    for (int column = west; column < east;) {
-        const int inside = inRaster(column);
-        if (inside < 0 || inside >= _width) {
-            ++column;
-            continue;
-        }
-        const int width = std::min(east - column, _width - inside);
-        _read({inside, firstInside, width, rows}, part);
-        for (int row = 0; row < rows; ++row) {
-            const auto from = part.begin() + static_cast<std::ptrdiff_t>(row) * width;
-            std::copy(from, from + width,
-                      window.heights.begin() +
-                          static_cast<std::ptrdiff_t>(window.index(column - west, firstInside - first + row)));
-        }
-        column += width;
+    const int turns = isGlobal() ? 1 : 0;
+    for (int turn = -turns; turn <= turns; ++turn) {
+        const int from = std::max(west, turn * _width);
+        const int to = std::min(east, (turn + 1) * _width);
+        if (to <= from) continue;
+        const int firstInside = std::max(first, 0);
+        const PixelWindow inside{from, firstInside, to - from, std::min(last, _height) - firstInside};
+        _read({from - turn * _width, firstInside, inside.width, inside.height}, part);
+        auto next = part.begin();
+        window.forPosts(inside, [&](int, int, std::size_t i) { window.heights[i] = *next++; });
     }
 }
 

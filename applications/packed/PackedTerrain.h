@@ -11,7 +11,7 @@ namespace osgAnalyticBin {
 
 /// Replaces the mesh of a tile in a scene that is about to be written, and is stored as the tile's grid. Reading the
 /// file gives an osg::Geometry with the mesh; no object of this class is in a loaded scene. Besides the grid, only the
-/// properties of osg::Node and osg::Drawable are stored, such as the state set.
+/// properties of osg::Node and osg::Drawable are stored, such as the state set. For binary files only.
 class PackedTerrain final : public osg::Geometry {
 public:
     /// Without a grid. What it writes cannot be read back.
@@ -25,16 +25,12 @@ public:
     PackedTerrain(const PackedTerrain& other, const osg::CopyOp& copy)
         : osg::Geometry(other, copy), _bytes(other._bytes) {}
 
-    /// @{
-    /// The usual members of an osg::Object.
-    osg::Object* cloneType() const override { return new PackedTerrain; }
-    osg::Object* clone(const osg::CopyOp& copy) const override { return new PackedTerrain(*this, copy); }
-    const char* libraryName() const override { return "osgAnalyticBin"; }
-    const char* className() const override { return "PackedTerrain"; }
-    /// @}
+    META_Object(osgAnalyticBin, PackedTerrain)
 
-    /// The bytes of the grid.
-    [[nodiscard]] const std::string& bytes() const noexcept { return _bytes; }
+        /// The bytes of the grid.
+        [[nodiscard]] const std::string& bytes() const noexcept {
+        return _bytes;
+    }
 
 protected:
     ~PackedTerrain() override = default;

@@ -13,39 +13,12 @@ using osgAnalyticBin::PackedTerrain;
 using osgAnalyticBin::TerrainGrid;
 
 constexpr unsigned int kMostBytes = 4U << 20;
-constexpr const char* kDigits = "0123456789abcdef";
-
-std::string toDigits(const std::string& bytes) {
-    std::string text;
-    for (const char byte : bytes) {
-        const auto value = static_cast<unsigned char>(byte);
-        text += {kDigits[value >> 4], kDigits[value & 15]};
-    }
-    return text;
-}
-
-std::string fromDigits(const std::string& text) {
-    std::string bytes;
-    const std::string digits(kDigits);
-    for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
-        const std::size_t high = digits.find(text[i]);
-        const std::size_t low = digits.find(text[i + 1]);
-        if (high == std::string::npos || low == std::string::npos) return {};
-        bytes.push_back(static_cast<char>(16 * high + low));
-    }
-    return bytes;
-}
 
 std::string readBytes(osgDB::InputStream& is) {
-    std::string bytes;
-    if (!is.isBinary()) {
-        is.readWrappedString(bytes);
-        return fromDigits(bytes);
-    }
     unsigned int size = 0;
     is >> size;
-    if (size > kMostBytes) return {};
-    bytes.resize(size);
+    if (!is.isBinary() || size > kMostBytes) return {};
+    std::string bytes(size, '\0');
     is.readCharArray(bytes.data(), size);
     return bytes;
 }
@@ -88,14 +61,13 @@ static bool readGrid(osgDB::InputStream& is, osg::Geometry& geometry) {
 }
 
 static bool writeGrid(osgDB::OutputStream& os, const osg::Geometry& geometry) {
-    const std::string& bytes = dynamic_cast<const PackedTerrain&>(geometry).bytes();
-    if (os.isBinary()) {
-        os << static_cast<unsigned int>(bytes.size());
-        os.writeCharArray(bytes.data(), static_cast<unsigned int>(bytes.size()));
-    } else {
-        os.writeWrappedString(toDigits(bytes));
-        os << std::endl;
+    if (!os.isBinary()) {
+        os.throwException("osgAnalyticBin::PackedTerrain: is stored in binary files only");
+        return false;
     }
+    const std::string& bytes = dynamic_cast<const PackedTerrain&>(geometry).bytes();
+    os << static_cast<unsigned int>(bytes.size());
+    os.writeCharArray(bytes.data(), static_cast<unsigned int>(bytes.size()));
     os.writeObject(geometry.getPrimitiveSet(0));
     if (geometry.getTexCoordArray(0) != nullptr) os.writeObject(geometry.getTexCoordArray(0));
     return true;

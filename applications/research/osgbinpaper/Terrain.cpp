@@ -42,8 +42,8 @@ Terrain::Terrain(const std::string& dem, int deepestLevel)
     }
     for (int y = 0; y < TileId::kStartRows; ++y)
         for (int x = 0; x < TileId::kStartColumns; ++x) findHeights({0, x, y});
-    const osgbindem::RasterFile& file = *_source.layer().members().front().file;
-    if (!file.hasHeights(file.look())) throw Failure("no heights in \"" + dem + "\", only missing data");
+    const osgbindem::RasterLook look = _source.layer().members().front().file->look();
+    if (look.missing == look.posts) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
 core::Interval Terrain::findHeights(const TileId& tile) {

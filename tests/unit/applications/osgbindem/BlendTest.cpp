@@ -110,19 +110,4 @@ TEST_F(Blend, PassesTheDateLine) {
     EXPECT_LT(mosaic.height({-18.0, -178.2}), 900.0);
 }
 
-TEST_F(Blend, BinsHoldTheBand) {
-    TestRaster::globe(1.0, hills).write(file("globe.tif"));
-    const TestRaster coarse(file("globe.tif"));
-    const TestRaster inset(10.0, 52.0, 0.1, 0.1, 41, 41, [](double p, double l) { return 3000.0 + hills(p, l); });
-    inset.write(file("inset.tif"));
-    build({file("globe.tif"), file("inset.tif"), "--cells", "24", "-o", file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(file("earth.osgb"));
-    checkSharedPosts(database);
-    database.forEach([](const LoadedTile& tile) {
-        for (const LoadedTile& child : tile.children) EXPECT_TRUE(tile.bin.contains(child.bin));
-    });
-    // Posts at the border are the coarser raster's.
-    EXPECT_NEAR(database.altitudeAt(50.0, 9.9609375), coarse.height(50.0, 9.96), 60.0);
-}
-
 }  // namespace

@@ -26,9 +26,9 @@ double top(const LoadedTile& tile) {
 
 TEST(Database, HoldsForAWholeGlobe) {
     const TempFolder folder;
-    const TestRaster raster = TestRaster::globe(0.5, hills);
+    const TestRaster raster = TestRaster::globe(1.0, hills);
     raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "12", "-o", folder.file("earth.osgb")});
+    build({folder.file("globe.tif"), "--cells", "6", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     EXPECT_EQ(database.deepestLevel(), 2);
     checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
@@ -36,9 +36,9 @@ TEST(Database, HoldsForAWholeGlobe) {
 
 TEST(Database, HoldsWhenTheRasterIsMuchFinerThanTheTiles) {
     const TempFolder folder;
-    const TestRaster raster = TestRaster::globe(0.25, hills);
+    const TestRaster raster = TestRaster::globe(0.5, hills);
     raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "10", "--levels", "0", "-o", folder.file("earth.osgb")});
+    build({folder.file("globe.tif"), "--cells", "6", "--levels", "0", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     EXPECT_EQ(database.deepestLevel(), 0);
     checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
@@ -60,12 +60,12 @@ TEST(Database, ASinglePeakBetweenPostsIsInEveryBinAboveIt) {
 
 TEST(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
     const TempFolder folder;
-    TestRaster::globe(0.5, [](double, double) { return 0.0; }).write(folder.file("flat.tif"));
-    build({folder.file("flat.tif"), "--cells", "24", "-o", folder.file("earth.osgb")});
+    TestRaster::globe(1.0, [](double, double) { return 0.0; }).write(folder.file("flat.tif"));
+    build({folder.file("flat.tif"), "--cells", "12", "-o", folder.file("earth.osgb")});
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     loadDatabase(folder.file("earth.osgb")).forEach([](const LoadedTile& tile) {
         // Against the parent's chords, four times the own; the own and the bound's slack on skirts on top.
-        const double step = std::ldexp(22.5 * kDegree / 24.0, -tile.level);
+        const double step = std::ldexp(22.5 * kDegree / 12.0, -tile.level);
         const double sag = 6400000.0 * step * step / 8.0;
         EXPECT_GT(bottom(tile), -(6.2 * sag + 2.0)) << tile.level;
         EXPECT_LT(top(tile), 0.1);
@@ -75,8 +75,8 @@ TEST(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
 TEST(Database, TheSkirtReachesTheEdgesOfTheLevelsAboveAndBelow) {
     // Independent of the program's measure: every post of a child on its parent's edge, against the parent's chords.
     const TempFolder folder;
-    TestRaster::globe(0.5, hills).write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "12", "-o", folder.file("earth.osgb")});
+    TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
+    build({folder.file("globe.tif"), "--cells", "6", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     const auto ellipsoid = database.ellipsoid();
     const auto altitude = [&ellipsoid](const glm::dvec3& p) { return ellipsoid.toGeodetic(p).altitude; };
@@ -152,7 +152,7 @@ TEST(Database, IsTheSameWithAnyNumberOfThreads) {
     TestRaster(10.0, 50.0, 0.1, 0.1, 40, 40, hills).write(folder.file("inset.tif"));
     fs::create_directory(folder.file("a"));
     fs::create_directory(folder.file("b"));
-    const std::vector<std::string> common{folder.file("globe.tif"), folder.file("inset.tif"), "--compress"};
+    const std::vector<std::string> common{folder.file("globe.tif"), folder.file("inset.tif"), "--compress", "--packed"};
     for (const auto& [name, threads] : {std::pair{"a", "1"}, std::pair{"b", "3"}}) {
         std::vector<std::string> arguments = common;
         arguments.insert(arguments.end(), {"--threads", threads, "-o", folder.file(std::string(name) + "/earth.osgb")});

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class Error : public testing::Test {
 protected:
     void SetUp() override {
-        TestRaster::globe(1.0, hills).write(good());
+        TestRaster::globe(2.0, hills).write(good());
         fs::create_directory(_folder.file("out"));
     }
 
@@ -183,14 +183,14 @@ TEST_F(Error, SomebodyElsesFolderIsNotReplaced) {
 
 TEST_F(Error, AFullDiskIsNoticedAndTheRerunCompletes) {
     // A limit on the size of files stands in for the full disk.
-    expectError({good(), "--levels", "2", "--cells", "4", "-o", output()}, "cannot write", 4000);
-    build({good(), "--levels", "2", "--cells", "4", "-o", output()});
+    expectError({good(), "--levels", "1", "--cells", "4", "-o", output()}, "cannot write", 4000);
+    build({good(), "--levels", "1", "--cells", "4", "-o", output()});
     // The old database survives a failing run.
-    const Outcome outcome = run({good(), "--levels", "1", "--cells", "4", "-o", output(), "--overwrite"}, 30000);
+    const Outcome outcome = run({good(), "--levels", "0", "--cells", "4", "-o", output(), "--overwrite"}, 30000);
     EXPECT_NE(outcome.exitCode, 0);
-    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 2);
-    build({good(), "--levels", "1", "--cells", "4", "-o", output(), "--overwrite"});
     EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
+    build({good(), "--levels", "0", "--cells", "4", "-o", output(), "--overwrite"});
+    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 0);
 }
 
 TEST_F(Error, InterruptedRunsLeaveNothingThatHindersTheNextOne) {

@@ -126,6 +126,7 @@ protected:
     /// `rasters`: finest first. `sources`: what the database is built from, in place of them.
     void expectHeights(const Words& rasters, int fewest = 900, const Words& sources = {}) const {
         Words words = sources.empty() ? rasters : sources;
+        words.insert(words.end(), region.begin(), region.end());
         words.insert(words.end(), {"--blend", "0", "--overwrite", "-o", file("earth.osgb")});
         build(words);
         const LoadedDatabase database = loadDatabase(file("earth.osgb"));
@@ -143,6 +144,9 @@ protected:
         }
         EXPECT_GE(compared, fewest);
     }
+
+    /// Of the command line, where the rasters are in a part of the earth.
+    Words region;
 
 private:
     /// Returns: false where a post lies between rasters, or in a void.
@@ -180,6 +184,7 @@ double hillsOfMetres(double y, double x) {
 }
 
 TEST_F(Heights, TilesOfAMapProjectionSideBySideOverAGlobe) {
+    region = {"-te", "17.9", "59.8", "18.4", "60.2"};
     Words rasters;
     for (int i = 0; i < 9; ++i) {
         rasters.push_back(raster("tile" + std::to_string(i) + ".tif", "EPSG:25833", 670050.0 + 4000.0 * (i % 3),
@@ -187,12 +192,14 @@ TEST_F(Heights, TilesOfAMapProjectionSideBySideOverAGlobe) {
     }
     const std::string whole = mosaicOf(rasters);
     expectHeights({whole}, 900, rasters);
+    region.clear();
     TestRaster::globe(0.5, [](double, double) { return 0.0; }).write(file("globe.tif"));
     rasters.push_back(file("globe.tif"));
     expectHeights({whole, rasters.back()}, 900, rasters);
 }
 
 TEST_F(Heights, TilesOfTwoZonesAndOfANationalGridSideBySide) {
+    region = {"-te", "11.7", "50.3", "12.3", "50.7"};
     Words rasters;
     // Both sides of 12 degrees east; what lies in both is in the first one.
     rasters.push_back(raster("west.tif", "EPSG:25832", 700050.0, 5600050.0, 100.0, 120, 100, hillsOfMetres));
@@ -203,6 +210,7 @@ TEST_F(Heights, TilesOfTwoZonesAndOfANationalGridSideBySide) {
 }
 
 TEST_F(Heights, TilesOfDegreesWithAnEmptyColumn) {
+    region = {"-te", "9", "49", "14", "54"};
     Words rasters;
     for (int i = 0; i < 9; ++i) {
         const double west = 10.0 + i % 3;

@@ -76,12 +76,16 @@ TEST_F(Images, TexturesAreAsFineAsTheFinestImageOfTheTile) {
                                            image("fine.tif", TestImage::square(10.0, 50.0, 0.02, 50, kRed))});
     EXPECT_EQ(textureOf(database.leafAt(49.5, 10.5))->s(), 256);
     EXPECT_EQ(textureOf(database.leafAt(58.0, 28.0))->s(), 16);
+    database.forEach([](const LoadedTile& tile) {
+        EXPECT_EQ(tile.geometry->getTexCoordArray(0)->getNumElements(), tile.vertices.size());
+    });
     checkNodes(database);
 }
 
 TEST_F(Images, TexturesThatShowReliefAreAsFineAsItsPosts) {
     const std::string coarse = image("coarse.tif", TestImage::square(10.0, 50.0, 1.0, 3, kRed));
-    build({file("globe.tif"), "--cells", "64", "--levels", "1", "--image", coarse, "-o", file("earth.osgb")});
+    build({file("globe.tif"), "--cells", "64", "--levels", "1", "-te", "10", "47", "13", "50", "--image", coarse, "-o",
+           file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(file("earth.osgb"));
     EXPECT_EQ(textureOf(database.leafAt(48.5, 11.5))->s(), 64);
 }
@@ -105,11 +109,8 @@ TEST_F(Images, OfAnyTypeAndOrderOfBandsHaveTheirColours) {
     };
     const Colour expected{200, 100, 50};
     for (const auto& [type, brightest] :
-         {std::pair{GDT_Byte, 255.0}, std::pair{GDT_UInt16, 65535.0}, std::pair{GDT_Float32, 1.0}}) {
-        for (const std::array<int, 3>& order : {std::array{0, 1, 2}, std::array{2, 1, 0}}) {
-            expectNear(shownAt(built({write(type, brightest, order)}), 47.5, 13.5), expected, 1);
-        }
-    }
+         {std::pair{GDT_Byte, 255.0}, std::pair{GDT_UInt16, 65535.0}, std::pair{GDT_Float32, 1.0}})
+        expectNear(shownAt(built({write(type, brightest, {2, 1, 0})}), 47.5, 13.5), expected, 1);
     const Outcome outcome = run(command("earth.osgb", {write(GDT_Float32, 1e6, {0, 1, 2})}, {"--overwrite"}));
     EXPECT_NE(outcome.errors.find("-ot Byte -scale"), std::string::npos) << outcome.errors;
 }

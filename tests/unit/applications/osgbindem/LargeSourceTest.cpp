@@ -78,19 +78,22 @@ void writeMosaic(const TestRaster& whole, int files, const TempFolder& folder, c
 TEST(LargeSource, AMosaicOfFilesIsAsTheWhole) {
     GDALAllRegister();
     const TempFolder folder;
-    writeMosaic(TestRaster::globe(1.0, hills), 24, folder, "globe.vrt");
-    const Files ofWhole = built({folder.file("whole.tif"), "--levels", "1", "--cells", "12"});
-    EXPECT_EQ(built({folder.file("globe.vrt"), "--levels", "1", "--cells", "12"}), ofWhole);
+    writeMosaic(TestRaster::globe(2.0, hills), 12, folder, "globe.vrt");
+    const Files ofWhole = built({folder.file("whole.tif"), "--levels", "1", "--cells", "6"});
+    EXPECT_EQ(built({folder.file("globe.vrt"), "--levels", "1", "--cells", "6"}), ofWhole);
     EXPECT_EQ(ofWhole.size(), 129U);
 }
 
 TEST(LargeSource, MemoryChangesNothingThatIsBuilt) {
     GDALAllRegister();
     const TempFolder folder;
-    TestRaster::globe(0.1, hills).write(folder.file("globe.tif"));
-    const Files usual = built({folder.file("globe.tif"), "--levels", "1", "--cells", "12"});
-    EXPECT_EQ(built({folder.file("globe.tif"), "--levels", "1", "--cells", "12", "--memory", "16", "--threads", "8"}),
-              usual);
+    // A start tile has more posts than what eight threads may have in memory.
+    TestRaster(0.0, 50.0, 0.01, 0.01, 1000, 1000, hills).write(folder.file("fine.tif"));
+    std::vector<std::string> words{folder.file("fine.tif"), "--levels", "3", "--cells", "12"};
+    words.insert(words.end(), {"-te", "0", "40", "10", "50"});
+    const Files usual = built(words);
+    words.insert(words.end(), {"--memory", "16", "--threads", "8"});
+    EXPECT_EQ(built(words), usual);
 }
 
 TEST(LargeSource, AnOverviewIsReadWhereItIsFineEnough) {
@@ -101,7 +104,7 @@ TEST(LargeSource, AnOverviewIsReadWhereItIsFineEnough) {
     addOverview(globe, 700.0);
     const auto altitude = [&](std::vector<std::string> arguments) {
         const TempFolder output;
-        arguments.insert(arguments.end(), {globe, "-o", output.file("earth.osgb")});
+        arguments.insert(arguments.end(), {globe, "-te", "40", "40", "50", "50", "-o", output.file("earth.osgb")});
         build(arguments);
         const LoadedDatabase database = loadDatabase(output.file("earth.osgb"));
         checkSharedPosts(database);
@@ -125,7 +128,7 @@ TEST(LargeSource, TheOverviewOfAWarpedRasterIsRead) {
     addOverview(path, 900.0);
     const auto highest = [&](std::vector<std::string> arguments) {
         const TempFolder output;
-        arguments.insert(arguments.end(), {path, "-o", output.file("earth.osgb")});
+        arguments.insert(arguments.end(), {path, "-te", "7", "48", "11", "51", "-o", output.file("earth.osgb")});
         build(arguments);
         double upper = 0.0;
         for (const LoadedTile& tile : loadDatabase(output.file("earth.osgb")).tiles) {

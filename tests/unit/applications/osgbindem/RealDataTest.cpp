@@ -41,7 +41,8 @@ TEST(RealData, Etopo5) {
 TEST(RealData, RockiesInFeet) {
     if (!isThere(kRockies)) GTEST_SKIP() << "package libncarg-data is not installed";
     const TempFolder folder;
-    build({kRockies, "--height-unit", "ft", "--levels", "6", "-o", folder.file("earth.osgb")});
+    build({kRockies, "--height-unit", "ft", "--levels", "6", "-te", "-108", "35", "-102", "40", "-o",
+           folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     checkSharedPosts(database);
     EXPECT_EQ(database.deepestLevel(), 6);
@@ -63,7 +64,7 @@ TEST(RealData, EverestWithVoids) {
     const std::string path = sample("everest_srtm3_N27E086.tif");
     if (!isThere(path)) GTEST_SKIP() << path << " is not there";
     const TempFolder folder;
-    build({path, "--levels", "8", "-o", folder.file("earth.osgb")});
+    build({path, "--levels", "8", "-te", "86", "27", "87", "28", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     checkSharedPosts(database);
     const TestRaster raster(path);
@@ -99,7 +100,7 @@ TEST(RealData, Gtopo30WithSeaMissing) {
     const std::string path = sample("gtopo30_w020n90_cut_3E9E_50N54N.tif");
     if (!isThere(path)) GTEST_SKIP() << path << " is not there";
     const TempFolder folder;
-    build({path, "--levels", "5", "-o", folder.file("earth.osgb")});
+    build({path, "--levels", "5", "-te", "3", "50", "9", "54", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     // Kahler Asten; the sea is at 0.
     EXPECT_GE(database.leafAt(51.18, 8.49).bin.bin().altitude().upper, 817.0);

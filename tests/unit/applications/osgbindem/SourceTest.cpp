@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Which heights a database has: several rasters, missing data, units, reference systems, the date line, images.
+// Which heights a database has: several rasters, missing data, units.
 
 #include "DatabaseCheck.h"
+#include "DemMosaic.h"
+#include "Failure.h"
 #include "Program.h"
 
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 #include <gtest/gtest.h>
-#include <osg/Texture2D>
 
 #include <filesystem>
 
@@ -31,6 +32,15 @@ void writeAs(GDALDataType type, const std::string& from, const std::string& to) 
     GDALClose(target);
     GDALClose(source);
     ASSERT_TRUE(target) << GDALGetDataTypeName(type);
+}
+
+/// The heights of rasters that a command line names, without a database.
+osgbindem::DemMosaic mosaicOf(const std::vector<std::string>& words) {
+    GDALAllRegister();
+    std::vector<const char*> arguments{"osgbindem", "-o", "earth.osgb"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    const auto settings = osgbindem::settingsFrom(static_cast<int>(arguments.size()), arguments.data());
+    return osgbindem::DemMosaic(osgbindem::withDeclaredRadii(settings.value()));
 }
 
 SourceRange rangeOf(const TestRaster& raster) {
@@ -164,76 +174,35 @@ TEST(Source, NumbersOfAnyTypeAreHeights) {
         if (GDALDataTypeIsComplex(type)) continue;  // no format of heights has them
         const std::string name = GDALGetDataTypeName(type);
         writeAs(type, folder.file("globe.tif"), folder.file(name + ".tif"));
-        build({folder.file(name + ".tif"), "--cells", "4", "--levels", "0", "-o", folder.file(name + ".osgb")});
-        const LoadedDatabase database = loadDatabase(folder.file(name + ".osgb"));
-        EXPECT_NEAR(database.altitudeAt(22.5, -90.0), 100.0, 0.1) << name;
-        EXPECT_NEAR(database.altitudeAt(22.5, 90.0), 0.0, 0.1) << name;
+        osgbindem::DemMosaic mosaic = mosaicOf({folder.file(name + ".tif")});
+        EXPECT_EQ(mosaic.height({22.5, -90.0}), 100.0) << name;
+        EXPECT_EQ(mosaic.height({22.5, 90.0}), 0.0) << name;
     }
 }
 
 TEST(Source, NodataCanBeNamed) {
     const TempFolder folder;
     TestRaster::globe(2.0, [](double p, double) { return p > 0.0 ? 50.0 : -5555.0; }).write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--nodata", "-5555", "--levels", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    EXPECT_NEAR(database.altitudeAt(45.0, 0.0), 50.0, 0.3);
-    EXPECT_NEAR(database.altitudeAt(-45.0, 0.0), 0.0, 0.3);
+    osgbindem::DemMosaic mosaic = mosaicOf({folder.file("globe.tif"), "--nodata", "-5555"});
+    EXPECT_EQ(mosaic.height({45.0, 0.0}), 50.0);
+    EXPECT_EQ(mosaic.height({-45.0, 0.0}), 0.0);
 }
 
 TEST(Source, UnitsAreForAllOrForEach) {
     const TempFolder folder;
     TestRaster::globe(2.0, [](double, double) { return 1000.0; }).write(folder.file("globe.tif"));
     TestRaster(0.0, 20.0, 0.5, 0.5, 41, 41, [](double, double) { return 3000.0; }).write(folder.file("inset.tif"));
-    const auto built = [&](const std::vector<std::string>& scales) {
-        std::vector<std::string> arguments{"--levels",     "0", "-o", folder.file("earth.osgb"), "--overwrite",
-                                           "--height-unit"};
-        arguments.insert(arguments.end(), scales.begin(), scales.end());
-        arguments.insert(arguments.end(), {folder.file("globe.tif"), folder.file("inset.tif")});
-        build(arguments);
-        const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-        return std::pair{database.altitudeAt(-45.0, -45.0), database.altitudeAt(11.25, 11.25)};
+    const auto heights = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), "--height-unit");
+        words.insert(words.end(), {folder.file("globe.tif"), folder.file("inset.tif")});
+        osgbindem::DemMosaic mosaic = mosaicOf(words);
+        return std::pair{mosaic.height({-45.0, -45.0}), mosaic.height({11.25, 11.25})};
     };
-    EXPECT_NEAR(built({"ft"}).first, 304.8, 0.3);
-    EXPECT_NEAR(built({"m", "ft"}).first, 1000.0, 0.3);
-    EXPECT_NEAR(built({"m", "ft"}).second, 914.4, 0.3);
-    EXPECT_NEAR(built({"0.5,2"}).first, 500.0, 0.3);
-    EXPECT_NEAR(built({"0.5", "2"}).second, 6000.0, 0.3);
-}
-
-TEST(Source, RastersThatPassTheDateLine) {
-    const TempFolder folder;
-    const TestRaster raster(165.0, 65.0, 0.25, 0.25, 201, 81, [](double p, double l) { return 2000.0 + hills(p, l); });
-    raster.write(folder.file("aleutians.tif"));
-    build({folder.file("aleutians.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkSharedPosts(database);
-    for (const double longitudeDeg : {168.75, 180.0, -168.75}) {
-        const double expected = raster.height(56.25, longitudeDeg);
-        EXPECT_NEAR(database.altitudeAt(56.25, longitudeDeg), expected, 0.3) << longitudeDeg;
-    }
-    EXPECT_NEAR(database.altitudeAt(56.25, 157.5), 0.0, 0.3);
-}
-
-TEST(Source, ProjectedRastersAreWarpedAndTheirPeaksKept) {
-    const TempFolder folder;
-    GDALAllRegister();
-    // UTM zone 32, 500 m pixels, flat but for one pixel.
-    TestRaster utm(400000.0, 5600000.0, 500.0, 500.0, 200, 200, [](double y, double x) {
-        return std::abs(x - 450000.0) < 100.0 && std::abs(y - 5550000.0) < 100.0 ? 3000.0 : 200.0;
-    });
-    utm.setReference("EPSG:32632");
-    utm.write(folder.file("utm.tif"));
-    build({folder.file("utm.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    EXPECT_NEAR(database.altitudeAt(50.3, 8.0), 200.0, 0.1);
-    EXPECT_GE(database.leafAt(50.1, 8.3).level, 4);
-    double highest = 0.0;
-    for (const LoadedTile& tile : database.tiles) highest = std::max(highest, tile.bin.bin().altitude().upper);
-    EXPECT_GE(highest, 3000.0);
-    EXPECT_LT(highest, 3001.0);
-    // 450 km east, 5550 km north in the zone: 50.097 N, 8.301 E.
-    EXPECT_GE(database.leafAt(50.0973, 8.3011).bin.bin().altitude().upper, 3000.0);
-    checkSharedPosts(database);
+    EXPECT_NEAR(heights({"ft"}).first, 304.8, 1e-6);
+    EXPECT_NEAR(heights({"m", "ft"}).first, 1000.0, 1e-6);
+    EXPECT_NEAR(heights({"m", "ft"}).second, 914.4, 1e-6);
+    EXPECT_NEAR(heights({"0.5,2"}).first, 500.0, 1e-6);
+    EXPECT_NEAR(heights({"0.5", "2"}).second, 6000.0, 1e-6);
 }
 
 namespace {
@@ -251,16 +220,16 @@ TestRaster plainWith(double number, bool isMap) {
     return raster;
 }
 
+constexpr osgbindem::PositionDeg kMiddles[] = {{49.495, 10.505}, {50.4902, 10.4803}};
+
 /// Expects the plain without anything in it.
-void expectPlain(const TempFolder& folder, const std::string& path, bool isMap) {
-    build({path, "--overwrite", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    const double latitudeDeg = isMap ? 50.4902 : 49.495;
-    const double longitudeDeg = isMap ? 10.4803 : 10.505;
+void expectPlain(const std::string& path, bool isMap) {
+    osgbindem::DemMosaic mosaic = mosaicOf({path});
+    const auto [latitudeDeg, longitudeDeg] = kMiddles[isMap ? 1 : 0];
     for (int i = -8; i <= 8; ++i) {
         const double step = isMap ? 0.001 : 0.01;
-        EXPECT_NEAR(database.altitudeAt(latitudeDeg + i * step, longitudeDeg), 1500.0, 0.2) << path << ' ' << i;
-        EXPECT_NEAR(database.altitudeAt(latitudeDeg, longitudeDeg + i * step), 1500.0, 0.2) << path << ' ' << i;
+        EXPECT_NEAR(mosaic.height({latitudeDeg + i * step, longitudeDeg}), 1500.0, 1e-3) << path << ' ' << i;
+        EXPECT_NEAR(mosaic.height({latitudeDeg, longitudeDeg + i * step}), 1500.0, 1e-3) << path << ' ' << i;
     }
 }
 
@@ -273,7 +242,7 @@ TEST(Source, VoidsByMasksAndByNumbersThatNoTerrainHas) {
     for (const bool isMap : {false, true}) {
         for (const double number : {1e6, -999999.0, -99999.0, -32768.0}) {
             plainWith(number, isMap).write(path);
-            expectPlain(folder, path, isMap);
+            expectPlain(path, isMap);
         }
         plainWith(0.0, isMap).write(path);
         GDALDataset* dataset = GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
@@ -287,7 +256,7 @@ TEST(Source, VoidsByMasksAndByNumbersThatNoTerrainHas) {
                                                                      GDT_Float64, 0, 0, nullptr),
                   CE_None);
         GDALClose(GDALDataset::ToHandle(dataset));
-        expectPlain(folder, path, isMap);
+        expectPlain(path, isMap);
         std::filesystem::remove(path + ".msk");
     }
 }
@@ -304,13 +273,9 @@ TEST(Source, UnitsThatBandsDeclare) {
             GDALClose(GDALDataset::ToHandle(dataset));
         };
         declare("ft");
-        build({path, "--overwrite", "-o", folder.file("earth.osgb")});
-        EXPECT_NEAR(
-            loadDatabase(folder.file("earth.osgb")).altitudeAt(isMap ? 50.4902 : 49.495, isMap ? 10.4803 : 10.505),
-            457.2, 0.1);
+        EXPECT_NEAR(mosaicOf({path}).height(kMiddles[isMap ? 1 : 0]), 457.2, 1e-3);
         declare("counts");
-        EXPECT_NE(run({path, "--overwrite", "-o", folder.file("earth.osgb")}).errors.find("give --height-unit"),
-                  std::string::npos);
+        EXPECT_THROW((void)mosaicOf({path}), osgAnalyticBin::support::Failure);
     }
 }
 
@@ -341,12 +306,12 @@ TEST(Source, TheBandThatIsNamedCounts) {
     dataset->GetRasterBand(1)->Fill(100.0);
     dataset->GetRasterBand(2)->Fill(700.0);
     GDALClose(GDALDataset::ToHandle(dataset));
-    build({folder.file("two.tif"), "-b", "2", "--levels", "0", "-o", folder.file("earth.osgb")});
-    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 700.0, 0.3);
-    const Outcome outcome =
-        run({folder.file("two.tif"), "--levels", "0", "--overwrite", "-o", folder.file("earth.osgb")});
-    EXPECT_NE(outcome.output.find("band 1 of 2"), std::string::npos) << outcome.output;
-    EXPECT_NEAR(loadDatabase(folder.file("earth.osgb")).altitudeAt(22.5, 22.5), 100.0, 0.3);
+    EXPECT_EQ(mosaicOf({folder.file("two.tif"), "-b", "2"}).height({22.5, 22.5}), 700.0);
+    osgbindem::DemMosaic first = mosaicOf({folder.file("two.tif")});
+    EXPECT_EQ(first.height({22.5, 22.5}), 100.0);
+    const std::vector<std::string> notes = first.inspect();
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes.front().find("band 1 of 2"), std::string::npos) << notes.front();
 }
 
 TEST(Source, RastersOfCentimetresAreDeepAndSmall) {
@@ -357,42 +322,4 @@ TEST(Source, RastersOfCentimetresAreDeepAndSmall) {
     EXPECT_EQ(database.deepestLevel(), 20);
     EXPECT_NEAR(database.altitudeAt(2.0 - 4e-6, 1.0 + 4e-6), 500.0, 0.1);
     checkSharedPosts(database);
-}
-
-TEST(Source, ImagesAreDrapedWithinTheTilesFile) {
-    const TempFolder folder;
-    GDALAllRegister();
-    TestRaster::globe(2.0, hills).write(folder.file("globe.tif"));
-    GDALDataset* image = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(folder.file("image.tif").c_str(), 360,
-                                                                                  180, 3, GDT_Byte, nullptr);
-    double transform[6] = {-180.0, 1.0, 0.0, 90.0, 0.0, -1.0};
-    image->SetGeoTransform(transform);
-    std::vector<std::uint8_t> red(360 * 180);
-    for (std::size_t i = 0; i < red.size(); ++i) red[i] = i < red.size() / 2 ? 250 : 10;
-    std::vector<std::uint8_t> flat(360 * 180, 77);
-    for (int band = 1; band <= 3; ++band) {
-        ASSERT_EQ(image->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, 360, 180, band == 1 ? red.data() : flat.data(),
-                                                       360, 180, GDT_Byte, 0, 0, nullptr),
-                  CE_None);
-    }
-    GDALClose(GDALDataset::ToHandle(image));
-    build({folder.file("globe.tif"), "--image", folder.file("image.tif"), "--levels", "1", "-o",
-           folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkSharedPosts(database);
-    checkNodes(database);
-    database.forEach([](const LoadedTile& tile) {
-        const auto* texture = dynamic_cast<const osg::Texture2D*>(
-            tile.geometry->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-        ASSERT_NE(texture, nullptr);
-        const osg::Image& texels = *texture->getImage();
-        ASSERT_EQ(texels.s(), tile.level == 0 ? 32 : 16);
-        const bool isNorth = tile.rect().south >= 0.0;
-        const std::uint8_t* middle = texels.data(8, 8);
-        EXPECT_EQ(middle[0], isNorth ? 250 : 10);
-        EXPECT_EQ(middle[1], 77);
-        const auto* coordinates = dynamic_cast<const osg::Vec2Array*>(tile.geometry->getTexCoordArray(0));
-        ASSERT_NE(coordinates, nullptr);
-        EXPECT_EQ(coordinates->size(), tile.vertices.size());
-    });
 }
