@@ -24,9 +24,6 @@ enum class Method {
 /// The name that files, options and command lines use: "quadratic", "exact", "sphere", "none".
 [[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
 
-/// Returns: nullopt for an unknown name.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
-
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
     Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude; the default

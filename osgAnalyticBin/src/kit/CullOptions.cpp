@@ -9,7 +9,6 @@
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
-#include <algorithm>
 #include <array>
 #include <mutex>
 #include <set>
@@ -33,9 +32,6 @@ constexpr Names<SkirtUse, 2> kSkirts{{{SkirtUse::All, "all"}, {SkirtUse::Cracks,
 constexpr Names<ClusterUse, 2> kClusters{{{ClusterUse::Keep, "keep"}, {ClusterUse::Replace, "replace"}}};
 constexpr Names<bool, 2> kShaders{{{true, "plain"}, {false, "declared"}}};
 constexpr Names<IndexUse, 3> kIndexes{{{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
-
-// Methods for comparison, which are in the applications.
-constexpr std::array<const char*, 4> kMovedMethods{"paper", "corners", "box", "orientedbox"};
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr core::Interval kAltitudes{-1e6, 1e6};
@@ -93,16 +89,9 @@ struct Choice {
 };
 
 bool applyMethod(const char*, const std::string& value, CullOptions& options, std::string& error) {
-    const std::optional<Method> method = methodFromName(value);
+    const std::optional<Method> method = valueNamed(kMethods, value);
     if (method) options.method = *method;
-    const bool isMoved = std::find(kMovedMethods.begin(), kMovedMethods.end(), value) != kMovedMethods.end();
-    if (isMoved) {
-        error = "method=" + value +
-                " is there for comparison alone, in builds with OSGANALYTICBIN_RESEARCH: osgbinbench --methods " +
-                value;
-    } else if (!method) {
-        error = "unknown method \"" + value + "\" (use quadratic, exact, sphere or none)";
-    }
+    if (!method) error = "unknown method \"" + value + "\" (use quadratic, exact, sphere or none)";
     return method.has_value();
 }
 
@@ -242,10 +231,6 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
 
 const char* methodName(Method method) noexcept {
     return nameOf(kMethods, method);
-}
-
-std::optional<Method> methodFromName(const std::string& name) noexcept {
-    return valueNamed(kMethods, name);
 }
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {

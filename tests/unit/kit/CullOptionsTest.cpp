@@ -34,7 +34,6 @@ TEST(CullOptions, ExpiryReadsBack) {
 
 TEST(CullOptions, EveryMethodReadsBack) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Sphere, Method::None}) {
-        EXPECT_EQ(methodFromName(methodName(method)), method);
         CullOptions options;
         options.method = method;
         std::string error;
@@ -73,15 +72,6 @@ TEST(CullOptions, HorizonAndEdgesReadBack) {
         EXPECT_EQ(back->edges, options->edges);
     }
     EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
-}
-
-TEST(CullOptions, SayWhereTheMethodsForComparisonWent) {
-    for (const std::string method : {"paper", "corners", "box", "orientedbox"}) {
-        std::string error;
-        EXPECT_FALSE(cullOptionsFromText("method=" + method, error));
-        EXPECT_NE(error.find("osgbinbench --methods " + method), std::string::npos) << error;
-        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
-    }
 }
 
 TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {

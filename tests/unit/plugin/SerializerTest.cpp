@@ -185,7 +185,7 @@ TEST(StoredOptions, OfAMethodForComparisonAreTheDefaultAfterOneWarning) {
         callback->setOptionsText(text);
         EXPECT_TRUE(callback->getCullOptions() == CullOptions());
     }
-    EXPECT_EQ(notes.count("method=paper"), 1u);
+    EXPECT_EQ(notes.count("unknown method \"paper\""), 1u);
 }
 
 }  // namespace
