@@ -184,8 +184,15 @@ bool standsOn(const osgTerrain::Locator& locator, const osg::EllipsoidModel& ell
     return isGeocentric && locator.getEllipsoidModel() && isSame(*locator.getEllipsoidModel(), ellipsoid);
 }
 
-// The grid that the technique makes of a tile, not sampled.
-std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
+// What the technique makes a mesh of.
+struct TileSource {
+    core::GeodeticGrid grid;  // not sampled
+    osgTerrain::Layer* layer;
+    const osg::HeightField* field;  // null: there is no layer, or one of another class
+};
+
+// Returns: nullopt where that is not known, or broken.
+std::optional<TileSource> sourceOf(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
     const osgTerrain::Locator* locator = masterLocator(tile);
     if (!locator || !standsOn(*locator, ellipsoid)) return std::nullopt;
     std::optional<core::GeodeticGrid> grid =
@@ -193,11 +200,13 @@ std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const os
     const bool isFar =
         grid && isMapPlane(ellipsoid) &&
         !(largestCoordinate({grid->latitude, grid->longitude, {0.0, 0.0}}) <= core::Ellipsoid::kFarthestInMap);
-    if (isFar) return std::nullopt;
-    const osgTerrain::Layer* layer = tile.getElevationLayer();
-    if (grid) grid->columns = layer ? layer->getNumColumns() : kDefaultPosts;
-    if (grid) grid->rows = layer ? layer->getNumRows() : kDefaultPosts;
-    return grid;
+    osgTerrain::Layer* const layer = tile.getElevationLayer();
+    const osg::HeightField* const field = heightField(tile);
+    const bool isBroken = !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
+    if (!grid || isFar || isBroken) return std::nullopt;
+    grid->columns = layer ? layer->getNumColumns() : kDefaultPosts;
+    grid->rows = layer ? layer->getNumRows() : kDefaultPosts;
+    return TileSource{*grid, layer, field};
 }
 
 // The middle of the rectangle of a locator, in its units.
@@ -262,25 +271,22 @@ const osg::HeightField* heightField(osgTerrain::TerrainTile& tile) {
 
 TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                double sampleRatio) {
-    std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
-    if (!grid) return {};
-
-    const osgTerrain::Layer* layer = tile.getElevationLayer();
-    const osg::HeightField* field = heightField(tile);
-    const bool isBroken = layer && !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
-    if (isBroken || !(sampleRatio >= 0.0)) return {};
-    HeightRange heights = layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
+    const std::optional<TileSource> source = sourceOf(tile, ellipsoid);
+    if (!source || !(sampleRatio >= 0.0)) return {};
+    auto [grid, layer, field] = *source;
+    const HeightRange heights =
+        layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
     const core::Ellipsoid model = toCore(ellipsoid);
     const double most = highestTerrain(model);
     if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -most || heights.high > most) return {};
-    if (sampleRatio != 1.0 && grid->columns > kFewestSampledPosts && grid->rows > kFewestSampledPosts) {
-        grid->columns = sampledPosts(grid->columns, sampleRatio);
-        grid->rows = sampledPosts(grid->rows, sampleRatio);
+    if (sampleRatio != 1.0 && grid.columns > kFewestSampledPosts && grid.rows > kFewestSampledPosts) {
+        grid.columns = sampledPosts(grid.columns, sampleRatio);
+        grid.rows = sampledPosts(grid.rows, sampleRatio);
     }
-    if (!isOnTheGlobe(*grid)) return {};
+    if (!isOnTheGlobe(grid)) return {};
 
     const double highest = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
-    const core::GeodeticGridBounds bounds(model, *grid, highest);
+    const core::GeodeticGridBounds bounds(model, grid, highest);
     if (!bounds.isKnown()) return {};
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
@@ -290,9 +296,9 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
-    const double reach = reachOf(tile, *grid, model);
-    const double margin = model.isPlane() ? marginInMap(*grid, altitude, reach) : marginOf(reach, model);
-    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude), margin);
+    const double reach = reachOf(tile, grid, model);
+    const double margin = model.isPlane() ? marginInMap(grid, altitude, reach) : marginOf(reach, model);
+    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid.longitude, altitude), margin);
     surface.bin.setSag(bounds.sag());
     surface.edgeLow = edgeLows(heights, *masterLocator(tile), bounds);
     surface.skirt = std::max(0.0, skirt);
@@ -301,41 +307,38 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
 }
 
 std::optional<core::GeodeticBin> terrainExtents(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
-    const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
-    osgTerrain::Layer* const layer = tile.getElevationLayer();
-    const bool isBroken = layer && !heightField(tile) && dynamic_cast<osgTerrain::HeightFieldLayer*>(layer);
-    if (!grid || isBroken || !isOnTheGlobe(*grid)) return std::nullopt;
+    const std::optional<TileSource> source = sourceOf(tile, ellipsoid);
+    if (!source || !isOnTheGlobe(source->grid)) return std::nullopt;
+    osgTerrain::Layer* const layer = source->layer;
     for (unsigned int row = 0; layer && layer->getValidDataOperator() && row < layer->getNumRows(); ++row) {
         for (unsigned int column = 0; column < layer->getNumColumns(); ++column) {
             float height = 0.0f;
             if (!layer->getValidValue(column, row, height)) return std::nullopt;
         }
     }
-    return core::GeodeticBin(grid->latitude, grid->longitude, {0.0, 0.0});
+    return core::GeodeticBin(source->grid.latitude, source->grid.longitude, {0.0, 0.0});
 }
 
 std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                          const TerrainShape& shape) {
     if (shape.techniqueMargin != 0.0 || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;
     if (!isDrawnByOsg(tile)) return std::nullopt;
-    const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
-    if (!grid || !isOnTheGlobe(*grid)) return std::nullopt;
+    const std::optional<TileSource> source = sourceOf(tile, ellipsoid);
+    if (!source || !isOnTheGlobe(source->grid)) return std::nullopt;
+    const auto [grid, layer, field] = *source;
     // rows from the south, columns from the west
     const osg::Matrixd& extents = masterLocator(tile)->getTransform();
     if (!(extents(0, 0) > 0.0) || !(extents(1, 1) > 0.0)) return std::nullopt;
 
-    osgTerrain::Layer* const layer = tile.getElevationLayer();
-    const osg::HeightField* const field = heightField(tile);
-    const bool isBroken = !field && dynamic_cast<osgTerrain::HeightFieldLayer*>(layer);
     // a skirt of negative height stands up
-    if (isBroken || (field && !(field->getSkirtHeight() >= 0.0f))) return std::nullopt;
+    if (field && !(field->getSkirtHeight() >= 0.0f)) return std::nullopt;
     const core::Ellipsoid model = toCore(ellipsoid);
-    const double reach = reachOf(tile, *grid, model);
-    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(reach, model), 0.0};
+    const double reach = reachOf(tile, grid, model);
+    TerrainPosts posts{grid, {}, model.isPlane() ? 0.0 : marginOf(reach, model), 0.0};
     if (field) posts.skirt = static_cast<double>(field->getSkirtHeight());
-    posts.altitudes.reserve(grid->rows * grid->columns);
-    for (unsigned int row = 0; row < grid->rows; ++row) {
-        for (unsigned int column = 0; column < grid->columns; ++column) {
+    posts.altitudes.reserve(grid.rows * grid.columns);
+    for (unsigned int row = 0; row < grid.rows; ++row) {
+        for (unsigned int column = 0; column < grid.columns; ++column) {
             float height = 0.0f;
             if (layer && !layer->getValidValue(column, row, height)) return std::nullopt;
             // as the technique multiplies
