@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DrawnFlight.h"
-
 #include "BenchViewer.h"
+#include "FlightBench.h"
 #include "Interruption.h"
 #include "Quantiles.h"
 
 #include <iostream>
 #include <memory>
-#include <utility>
+#include <numeric>
 
 namespace osgAnalyticBin::bench {
 
@@ -40,26 +39,29 @@ public:
         _scene.pause();
     }
 
-    [[nodiscard]] DrawnFigures figures() const {
-        DrawnFigures figures;
-        figures.method = _scene.method().name;
-        figures.frames = _times.size();
-        std::vector<double> workMs, frameMs;
+    [[nodiscard]] FlightFigures figures() const {
+        std::vector<double> cullMs, drawMs, workMs, frameMs;
         for (const FrameTimes& frame : _times) {
-            figures.cullMs += frame.cullMs;
-            figures.drawMs += frame.drawMs;
-            figures.frameMs += frame.frameMs;
+            cullMs.push_back(frame.cullMs);
+            drawMs.push_back(frame.drawMs);
             workMs.push_back(frame.cullMs + frame.drawMs);
             frameMs.push_back(frame.frameMs);
         }
-        const support::Quantiles work(std::move(workMs)), whole(std::move(frameMs));
-        figures.work1stMs = work.at(1, 100);
-        figures.workMedianMs = work.at(50, 100);
-        figures.work99thMs = work.at(99, 100);
-        figures.frame1stMs = whole.at(1, 100);
-        figures.frameMedianMs = whole.at(50, 100);
-        figures.frame99thMs = whole.at(99, 100);
-        return figures;
+        const auto sum = [](const std::vector<double>& times) {
+            return std::accumulate(times.begin(), times.end(), 0.0);
+        };
+        const support::Quantiles work(workMs), whole(frameMs);
+        return {_scene.method().name,
+                {{"frames", _times.size()},
+                 {kCullColumn, sum(cullMs)},
+                 {"draw_ms", sum(drawMs)},
+                 {"work_1st_ms", work.at(1, 100)},
+                 {"work_median_ms", work.at(50, 100)},
+                 {"work_99th_ms", work.at(99, 100)},
+                 {"frame_ms", sum(frameMs)},
+                 {"frame_1st_ms", whole.at(1, 100)},
+                 {"frame_median_ms", whole.at(50, 100)},
+                 {"frame_99th_ms", whole.at(99, 100)}}};
     }
 
 private:
@@ -81,8 +83,8 @@ std::vector<std::unique_ptr<DrawnFlight>> flightsThatDraw(const Settings& settin
 
 }  // namespace
 
-std::vector<DrawnFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
-                                   const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+std::vector<FlightFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
+                                    const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
     BenchViewer viewer(settings.width, settings.height, settings.threading);
     viewer.sortByState();
     const auto flights = flightsThatDraw(settings, methods, watch);
@@ -91,7 +93,7 @@ std::vector<DrawnFigures> flyDrawn(const Settings& settings, const std::vector<C
                   << kRounds << std::endl;
         for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);
     }
-    std::vector<DrawnFigures> figures;
+    std::vector<FlightFigures> figures;
     for (const auto& flight : flights) figures.push_back(flight->figures());
     return figures;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "PathGroups.h"
+#include "Table.h"
 
 #include <array>
 #include <cstdint>
@@ -15,10 +16,8 @@ namespace osgAnalyticBin::bench {
 /// What was measured of one method at one pose, or summed over poses.
 struct Figures {
     std::uint64_t truthTiles = 0;
-    std::uint64_t surfaceTiles = 0;
     std::uint64_t hiddenTiles = 0;
     std::uint64_t visibleTiles = 0;
-    std::uint64_t visibleFiles = 0;
     std::uint64_t nodes = 0;
     std::uint64_t testedTiles = 0;
     std::uint64_t keptTiles = 0;
@@ -32,7 +31,6 @@ struct Figures {
     std::uint64_t falseCulls = 0;
     std::uint64_t falseCullPixels = 0;
     std::uint64_t falseKeeps = 0;
-    std::uint64_t surfaceFalseKeeps = 0;
     std::uint64_t differingPixels = 0;
     double cullMs = 0.0;
     double cullSpreadMs = 0.0;
@@ -49,14 +47,11 @@ struct CountColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<CountColumn, 20> kCountColumns{{
+inline constexpr std::array<CountColumn, 17> kCountColumns{{
     {"truth_tiles", &Figures::truthTiles,
      "tiles needed: the hull of the tile's bin, finer descendants in it, meets the frustum, not behind the globe"},
-    {"surface_tiles", &Figures::surfaceTiles, "the same, more strictly, of the tile's own surface alone"},
     {"hidden_tiles", &Figures::hiddenTiles, "tiles whose bin meets the frustum, but behind the globe"},
     {"visible_tiles", &Figures::visibleTiles, "tiles with a pixel of their own, skirts included"},
-    {"visible_files", &Figures::visibleFiles,
-     "files that bring these and the tiles above them: the least that has to be read"},
     {"nodes", &Figures::nodes, "nodes and drawables that the cull traversal reached"},
     {"tested_tiles", &Figures::testedTiles, "tiles that it reached"},
     {"kept_tiles", &Figures::keptTiles, "tiles that it went into"},
@@ -70,7 +65,6 @@ inline constexpr std::array<CountColumn, 20> kCountColumns{{
     {"false_culls", &Figures::falseCulls, "visible tiles that were not drawn"},
     {"false_cull_pixels", &Figures::falseCullPixels, "pixels of these"},
     {"false_keeps", &Figures::falseKeeps, "tiles drawn that are not among the truth_tiles"},
-    {"surface_false_keeps", &Figures::surfaceFalseKeeps, "tiles drawn that are not among the surface_tiles"},
     {"differing_pixels", &Figures::differingPixels, "pixels that differ from the picture without culling"},
 }};
 
@@ -107,74 +101,41 @@ using report::pathGroupsOf;
 /// What a method did at the poses of one group. Requires: figures for each of them.
 [[nodiscard]] Figures sumOf(const MethodFigures& method, const PathGroup& group);
 
-/// The same for a continuous flight, or for jumps from pose to pose, with paging live.
+/// What was measured of one method in a flight with paging live: "frames", and figures by kFlightColumns, or
+/// kDrawnColumns where it was drawn.
 struct FlightFigures {
     std::string method;
-    std::uint64_t frames = 0;
-    std::uint64_t drawnTiles = 0;
-    std::uint64_t missingFrames = 0;
-    std::uint64_t residentTiles = 0;
-    std::uint64_t filesRequested = 0;
-    std::uint64_t askedAgain = 0;
-    std::uint64_t bytes = 0;
-    std::uint64_t completeMs = 0;
-    double cullMs = 0.0;
-    double cullMedianMs = 0.0;
-    double cull99thMs = 0.0;
+    report::Json sums;
 };
-
-/// The same for flights that are drawn: milliseconds.
-struct DrawnFigures {
-    std::string method;
-    std::uint64_t frames = 0;
-    double cullMs = 0.0;
-    double drawMs = 0.0;
-    double work1stMs = 0.0;
-    double workMedianMs = 0.0;
-    double work99thMs = 0.0;
-    double frameMs = 0.0;
-    double frame1stMs = 0.0;
-    double frameMedianMs = 0.0;
-    double frame99thMs = 0.0;
-};
-
-struct DrawnColumn {
-    const char* name;
-    double DrawnFigures::*ms;
-    const char* meaning;
-};
-
-inline constexpr std::array<DrawnColumn, 9> kDrawnColumns{{
-    {"cull_ms", &DrawnFigures::cullMs, "milliseconds of the cull traversals, summed over frames"},
-    {"draw_ms", &DrawnFigures::drawMs, "of drawing, until the pixels are there"},
-    {"work_1st_ms", &DrawnFigures::work1stMs, "cull and draw of one frame, 1st percentile"},
-    {"work_median_ms", &DrawnFigures::workMedianMs, "median"},
-    {"work_99th_ms", &DrawnFigures::work99thMs, "99th percentile"},
-    {"frame_ms", &DrawnFigures::frameMs, "from frame to frame, summed: update and what the pager brings besides"},
-    {"frame_1st_ms", &DrawnFigures::frame1stMs, "of one, 1st percentile"},
-    {"frame_median_ms", &DrawnFigures::frameMedianMs, "median"},
-    {"frame_99th_ms", &DrawnFigures::frame99thMs, "99th percentile"},
-}};
 
 struct FlightColumn {
     const char* name;
-    std::uint64_t FlightFigures::*count;
     const char* meaning;
 };
 
-inline constexpr std::array<FlightColumn, 7> kFlightColumns{{
-    {"drawn_tiles", &FlightFigures::drawnTiles, "tiles with a mesh of their own drawn, summed over frames"},
-    {"missing_frames", &FlightFigures::missingFrames,
-     "frames that asked for a file for what they showed: it was too coarse"},
-    {"resident_tiles", &FlightFigures::residentTiles, "tiles in memory after the last frame"},
-    {"files_requested", &FlightFigures::filesRequested, "files read"},
-    {"asked_again", &FlightFigures::askedAgain, "times that a file was asked for which earlier frames had given up"},
-    {"bytes", &FlightFigures::bytes, "bytes of these files"},
-    {"complete_ms", &FlightFigures::completeMs,
-     "milliseconds from each jump until nothing was missing, summed; 0 without --jumps"},
+inline constexpr std::array<FlightColumn, 10> kFlightColumns{{
+    {"drawn_tiles", "tiles with a mesh of their own drawn, summed over frames"},
+    {"missing_frames", "frames that asked for a file for what they showed: it was too coarse"},
+    {"resident_tiles", "tiles in memory after the last frame"},
+    {"files_requested", "files read"},
+    {"asked_again", "times that a file was asked for which earlier frames had given up"},
+    {"bytes", "bytes of these files"},
+    {"complete_ms", "milliseconds from each jump until nothing was missing, summed; 0 without --jumps"},
+    {kCullColumn, "milliseconds of all cull traversals and their sorting, summed"},
+    {"cull_median_ms", "of one, median"},
+    {"cull_99th_ms", "of one, 99th percentile"},
 }};
 
-inline constexpr const char* kCullMedianColumn = "cull_median_ms";
-inline constexpr const char* kCull99thColumn = "cull_99th_ms";
+inline constexpr std::array<FlightColumn, 9> kDrawnColumns{{
+    {kCullColumn, "milliseconds of the cull traversals, summed over frames"},
+    {"draw_ms", "of drawing, until the pixels are there"},
+    {"work_1st_ms", "cull and draw of one frame, 1st percentile"},
+    {"work_median_ms", "median"},
+    {"work_99th_ms", "99th percentile"},
+    {"frame_ms", "from frame to frame, summed: update and what the pager brings besides"},
+    {"frame_1st_ms", "of one, 1st percentile"},
+    {"frame_median_ms", "median"},
+    {"frame_99th_ms", "99th percentile"},
+}};
 
 }  // namespace osgAnalyticBin::bench

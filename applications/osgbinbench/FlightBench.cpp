@@ -11,6 +11,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <thread>
 
 namespace osgAnalyticBin::bench {
@@ -23,7 +24,7 @@ class Flight {
 public:
     Flight(const CullMethod& method, const Settings& settings, FileWatch& watch)
         : _scene(method, settings, watch), _watch(watch), _period(1.0 / settings.frameRate) {
-        _figures.method = method.name;
+        for (const FlightColumn& column : kFlightColumns) _sums[column.name] = std::uint64_t{0};
         _scene.load();
         _scene.pause();
     }
@@ -40,15 +41,18 @@ public:
             if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
         }
         const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin);
-        _figures.completeMs += static_cast<std::uint64_t>(passed.count());
+        add("complete_ms", static_cast<std::uint64_t>(passed.count()));
     }
 
     [[nodiscard]] FlightFigures figures() {
         const support::Quantiles times(_times);
-        _figures.cullMedianMs = times.at(50, 100);
-        _figures.cull99thMs = times.at(99, 100);
-        _figures.residentTiles = flight::residentTiles(_scene.root());
-        return _figures;
+        FlightFigures figures{_scene.method().name, {{"frames", _times.size()}}};
+        _sums["resident_tiles"] = flight::residentTiles(_scene.root());
+        _sums[kCullColumn] = std::accumulate(_times.begin(), _times.end(), 0.0);
+        _sums["cull_median_ms"] = times.at(50, 100);
+        _sums["cull_99th_ms"] = times.at(99, 100);
+        figures.sums.update(_sums);
+        return figures;
     }
 
 private:
@@ -63,8 +67,8 @@ private:
         }
         ~Turn() {
             _flight._scene.pause();
-            _flight._figures.filesRequested += _flight._watch.reads->nodeFiles() - _files;
-            _flight._figures.bytes += _flight._watch.reads->nodeBytes() - _bytes;
+            _flight.add("files_requested", _flight._watch.reads->nodeFiles() - _files);
+            _flight.add("bytes", _flight._watch.reads->nodeBytes() - _bytes);
         }
         Turn(const Turn&) = delete;
         Turn& operator=(const Turn&) = delete;
@@ -78,20 +82,20 @@ private:
     bool fly(const flight::CameraPose& pose) {
         const auto end = Clock::now() + _period;
         const PagedScene::Frame frame = _scene.flyFrame(pose, _period.count());
-        ++_figures.frames;
-        _figures.missingFrames += frame.wanted > 0 ? 1U : 0U;
-        _figures.askedAgain += frame.askedAgain;
-        _figures.cullMs += frame.cullMs;
+        add("missing_frames", frame.wanted > 0 ? 1U : 0U);
+        add("asked_again", frame.askedAgain);
         _times.push_back(frame.cullMs);
-        _figures.drawnTiles += _scene.census().tiles.size();
+        add("drawn_tiles", _scene.census().tiles.size());
         std::this_thread::sleep_until(end);
         return frame.wanted > 0;
     }
 
+    void add(const char* column, std::uint64_t count) { _sums[column] = _sums[column].get<std::uint64_t>() + count; }
+
     MethodScene _scene;
     FileWatch& _watch;
     std::chrono::duration<double> _period;
-    FlightFigures _figures;
+    report::Json _sums;
     std::vector<double> _times;
 };
 

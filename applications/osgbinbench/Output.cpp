@@ -41,27 +41,10 @@ Json headOf(const Settings& settings, const char* mode) {
     return json;
 }
 
-Json flightOf(const std::vector<FlightFigures>& methods) {
-    Json json;
-    for (const FlightFigures& method : methods) {
-        Json& sums = json[method.method];
-        sums["frames"] = method.frames;
-        for (const FlightColumn& column : kFlightColumns) sums[column.name] = method.*column.count;
-        sums[kCullColumn] = method.cullMs;
-        sums[kCullMedianColumn] = method.cullMedianMs;
-        sums[kCull99thColumn] = method.cull99thMs;
-    }
-    return json;
-}
-
-Json drawnOf(const std::vector<DrawnFigures>& methods) {
-    Json json;
-    for (const DrawnFigures& method : methods) {
-        Json& times = json[method.method];
-        times["frames"] = method.frames;
-        for (const DrawnColumn& column : kDrawnColumns) times[column.name] = method.*column.ms;
-    }
-    return json;
+Json sumsOf(const std::vector<FlightFigures>& methods) {
+    Json sums;
+    for (const FlightFigures& method : methods) sums[method.method] = method.sums;
+    return sums;
 }
 
 Json sumsOf(const Figures& sum) {
@@ -126,15 +109,6 @@ void addRatios(std::vector<TextTable>& tables, const Json& methods) {
     }
 }
 
-std::string csvByMethod(const Json& methods) {
-    std::vector<Json> rows;
-    for (const auto& method : methods.items()) {
-        rows.push_back({{"method", method.key()}});
-        rows.back().update(method.value());
-    }
-    return report::csvOf(rows);
-}
-
 TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<MethodFigures>& methods) {
     std::vector<std::string> columns{"truth_tiles",      "drawn_tiles",     "drawn/truth",
                                      "triangles",        "files_requested", "false_culls",
@@ -162,13 +136,6 @@ TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<Me
     return table;
 }
 
-// A table of sums, and their ratios.
-std::vector<TextTable> tablesOf(const char* title, const Json& sums, int decimals) {
-    std::vector<TextTable> tables{tableOf(title, sums, decimals)};
-    addRatios(tables, sums);
-    return tables;
-}
-
 }  // namespace
 
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
@@ -183,11 +150,12 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
 }
 
 std::string csvOf(const std::vector<FlightFigures>& methods) {
-    return csvByMethod(flightOf(methods));
-}
-
-std::string csvOf(const std::vector<DrawnFigures>& methods) {
-    return csvByMethod(drawnOf(methods));
+    std::vector<Json> rows;
+    for (const FlightFigures& method : methods) {
+        rows.push_back({{"method", method.method}});
+        rows.back().update(method.sums);
+    }
+    return report::csvOf(rows);
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
@@ -200,21 +168,15 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
         path["poses"] = group.poses.size();
         path["methods"] = sumsOf(methods, group);
     }
-    if (!live.empty()) json["live"] = {{"frames", live.front().frames}, {"methods", flightOf(live)}};
+    if (!live.empty()) json["live"] = {{"frames", live.front().sums["frames"]}, {"methods", sumsOf(live)}};
     json["pose_names"] = poses;
     for (const MethodFigures& method : methods) json["by_pose"][method.method] = byPose(method);
     return json.dump(2) + "\n";
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
-    Json json = headOf(settings, settings.jumps ? "jumps" : "flight");
-    json["methods"] = flightOf(methods);
-    return json.dump(2) + "\n";
-}
-
-std::string jsonOf(const Settings& settings, const std::vector<DrawnFigures>& methods) {
-    Json json = headOf(settings, "drawn");
-    json["methods"] = drawnOf(methods);
+    Json json = headOf(settings, settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
+    json["methods"] = sumsOf(methods);
     return json.dump(2) + "\n";
 }
 
@@ -230,11 +192,10 @@ std::vector<TextTable> tablesOf(const std::vector<std::string>& poses, const std
 }
 
 std::vector<TextTable> tablesOf(const std::vector<FlightFigures>& methods) {
-    return tablesOf("paging live", flightOf(methods), 4);
-}
-
-std::vector<TextTable> tablesOf(const std::vector<DrawnFigures>& methods) {
-    return tablesOf("drawn with paging live", drawnOf(methods), 3);
+    const Json sums = sumsOf(methods);
+    std::vector<TextTable> tables{tableOf("paging live", sums, 4)};
+    addRatios(tables, sums);
+    return tables;
 }
 
 void print(std::ostream& output, const std::vector<TextTable>& tables) {

@@ -17,7 +17,6 @@ namespace osgAnalyticBin::bench {
 /// One line for each pose and method, after a line of column names.
 [[nodiscard]] std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::string csvOf(const std::vector<FlightFigures>& methods);
-[[nodiscard]] std::string csvOf(const std::vector<DrawnFigures>& methods);
 
 /// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
 /// by name, with "methods" as above over the poses of one path, "by_pose", by method and column, what was measured at
@@ -27,16 +26,14 @@ namespace osgAnalyticBin::bench {
                                  const std::vector<MethodFigures>& methods,
                                  const std::vector<FlightFigures>& live = {});
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods);
-[[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<DrawnFigures>& methods);
 
 /// Sums for people, with times over those of "oracle" where that was measured, then their ratios to "sphere" and
 /// "cluster" where these were flown, then the most telling sums path by path, if there are several.
 [[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<std::string>& poses,
                                                       const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<FlightFigures>& methods);
-[[nodiscard]] std::vector<report::TextTable> tablesOf(const std::vector<DrawnFigures>& methods);
 
-/// Tiles drawn, files requested and cull time by method, path by path, and tiles, triangles and files pose by pose.
+/// Tiles drawn, files requested and cull time by method, path by path.
 /// The reference method is left out where there are others: it dwarfs them all.
 /// Requires: figures for each of the poses, of one method at least.
 [[nodiscard]] std::vector<report::Diagram> diagramsOf(const std::vector<std::string>& poses,

@@ -38,15 +38,6 @@ CullMethod binMethod() {
     return method;
 }
 
-std::uint64_t pagesOf(const std::vector<flight::DrawnTile>& tiles,
-                      const std::map<std::string, std::uint64_t>& visible) {
-    std::set<std::string> pages;
-    for (const flight::DrawnTile& tile : tiles) {
-        if (visible.count(tile.key) != 0) pages.insert(tile.pages.begin(), tile.pages.end());
-    }
-    return pages.size();
-}
-
 void countFalseVerdicts(Figures& figures, const flight::Census& census, const NeededTiles& needed,
                         const std::map<std::string, std::uint64_t>& visible) {
     const std::set<std::string> drawn = census.keys();
@@ -55,10 +46,7 @@ void countFalseVerdicts(Figures& figures, const flight::Census& census, const Ne
         ++figures.falseCulls;
         figures.falseCullPixels += pixels;
     }
-    for (const std::string& key : drawn) {
-        figures.falseKeeps += needed.byBin.count(key) == 0 ? 1U : 0U;
-        figures.surfaceFalseKeeps += needed.bySurface.count(key) == 0 ? 1U : 0U;
-    }
+    for (const std::string& key : drawn) figures.falseKeeps += needed.keys.count(key) == 0 ? 1U : 0U;
 }
 
 Figures figuresOf(const flight::Census& census) {
@@ -163,11 +151,9 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Figures> figures;
     for (std::size_t i = 0; i < visits.size(); ++i) {
         Figures& f = figures.emplace_back(figuresOf(visits[i].census));
-        f.truthTiles = needed.byBin.size();
-        f.surfaceTiles = needed.bySurface.size();
+        f.truthTiles = needed.keys.size();
         f.hiddenTiles = needed.hidden;
         f.visibleTiles = visible.size();
-        f.visibleFiles = pagesOf(reference.census.tiles, visible);
         f.residentTiles = visits[i].residentTiles;
         f.filesRequested = visits[i].files;
         f.bytes = visits[i].bytes;

@@ -3,24 +3,19 @@
 
 #include "Settings.h"
 
+#include "CommandLine.h"
 #include "Compare.h"
+#include "CsvTable.h"
 #include "CullMethod.h"
 #include "Failure.h"
 #include "Figures.h"
-#include "NumberRange.h"
-#include "ProgramRun.h"
 #include "TextFile.h"
 #include "ThreadingName.h"
 
 #include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
-#include <map>
 #include <optional>
 
 namespace osgAnalyticBin::bench {
@@ -54,16 +49,23 @@ void takeSize(const std::string& text, Settings& settings) {
     settings.height = height;
 }
 
-std::string line(const char* name, const char* meaning) {
-    std::string text = std::string("  ") + name;
-    text.resize(23, ' ');
-    return text + meaning + "\n";
+// Seconds; 0: OSG's own rule.
+double expiryFrom(const std::string& text, const std::string& binOptions) {
+    std::string error;
+    if (text.empty()) return cullOptionsFromText(binOptions, error)->expiry;
+    const std::optional<double> seconds = text == "osg" ? std::optional(0.0) : flight::numberFrom(text);
+    if (seconds && *seconds >= 0.0 && *seconds <= 86400.0) return *seconds;
+    throw UsageError("--expiry: " + text + " is neither osg nor seconds from 0 to 86400");
 }
 
 template <class Columns>
 std::string linesOf(const Columns& columns) {
     std::string text;
-    for (const auto& column : columns) text += line(column.name, column.meaning);
+    for (const auto& column : columns) {
+        std::string name = std::string("  ") + column.name;
+        name.resize(23, ' ');
+        text += name + column.meaning + "\n";
+    }
     return text;
 }
 
@@ -98,11 +100,7 @@ std::string footer() {
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
     return text + linesOf(kCountColumns) + linesOf(kTimeColumns) +
            "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
-           linesOf(kFlightColumns) +
-           "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
-           "  cull_median_ms       of one, median\n"
-           "  cull_99th_ms         of one, 99th percentile\n\n"
-           "The same with --draw, over three flights of each method but none:\n" +
+           linesOf(kFlightColumns) + "\nThe same with --draw, over three flights of each method but none:\n" +
            linesOf(kDrawnColumns) +
            "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
@@ -120,71 +118,55 @@ std::string footer() {
 struct Words {
     std::string size = "1280x720";
     std::string threading = "SingleThreaded";
-    std::optional<double> expiry;
+    std::string expiry;
 };
 
-void declare(CLI::App& app, Settings& settings, Words& words) {
-    app.footer(footer());
-    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
-    app.add_option("--path", settings.paths,
-                   "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
-                   "in place of degrees; may be given\nseveral times (default: around the database)")
-        ->allow_extra_args(false);
-    app.add_option("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_option("--options", settings.binOptions,
-                   "more options for the bins, comma-separated, such as skirts=all\n"
-                   "or horizon=-500 (metres; for the methods with +horizon)");
-    app.add_option("--csv", settings.csv, "file for the figures of every pose");
-    app.add_option("--json", settings.json, "file for the sums");
-    app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
-    app.add_option("--report", settings.report,
-                   "file for a page with the answer, tables, diagrams and pictures\n"
-                   "(HTML; default without --path: report.html)");
-    app.add_option("--plot", settings.plot,
-                   "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
-    app.add_option(
-           "--compare", settings.compared,
-           "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the second")
-        ->type_name("OLD NEW")
-        ->expected(2);
-    app.add_option("--vertical-scale", settings.verticalScale,
-                   "factor for the heights of an osgTerrain database (default 1)")
-        ->check(support::within(0.001, 1000.0));
-    app.add_option("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
-    app.add_option("--threading", words.threading,
-                   "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
-                   "CullThreadPerCameraDrawThreadPerContext");
-    app.add_option("--repeats", settings.repeats,
-                   "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold "
-                   "caches, 1 to 10000\n(default 40)")
-        ->check(CLI::Range(1, 10000));
-    app.add_option("--flush", settings.flush,
-                   "MiB that are touched before each cull with cold caches, to\n65536 (default twice the last-level "
-                   "cache, 64 at least;\n0: no such culls)")
-        ->check(CLI::Range(0, 65536));
-    app.add_option("--live", settings.live,
-                   "frames from pose to pose of the flight after the poses,\nto 100000 (default 10, 0: no flight)")
-        ->check(CLI::Range(0, 100000));
-    app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all,\n1 to 1000000")
-        ->check(CLI::Range(1, 1000000));
-    app.add_flag("--draw", settings.draw,
-                 "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
-    app.add_flag("--jumps", settings.jumps,
-                 "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
-    app.add_option("--frame-rate", settings.frameRate,
-                   "frames a second of flights and jumps at most, so that\nthe pager has time: 0.1 to 10000 "
-                   "(default 60)")
-        ->check(support::within(0.1, 10000.0));
-    app.add_option("--expiry", words.expiry,
-                   "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its "
-                   "own rule; for flights\n(default as bins: 3, or expiry= of --options)")
-        ->option_text("SECONDS|osg")
-        ->transform(CLI::Transformer(std::map<std::string, std::string>{{"osg", "0"}}))
-        ->check(support::within(0.0, 86400.0));
-    app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load, to 86400 (default 120)")
-        ->check(support::within(0.001, 86400.0));
+void declare(support::CommandLine& line, Settings& settings, Words& words) {
+    line.add("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
+    line.addAll("--path", settings.paths,
+                "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
+                "in place of degrees; may be given\nseveral times (default: around the database)");
+    line.addList("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)");
+    line.add("--options", settings.binOptions,
+             "more options for the bins, comma-separated, such as skirts=all\n"
+             "or horizon=-500 (metres; for the methods with +horizon)");
+    line.add("--csv", settings.csv, "file for the figures of every pose");
+    line.add("--json", settings.json, "file for the sums");
+    line.add("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
+    line.add("--report", settings.report,
+             "file for a page with the answer, tables, diagrams and pictures\n"
+             "(HTML; default without --path: report.html)");
+    line.add("--plot", settings.plot,
+             "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
+    line.addPair("--compare", settings.compared,
+                 "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the "
+                 "second");
+    line.add("--vertical-scale", settings.verticalScale, 0.001, 1000.0,
+             "factor for the heights of an osgTerrain database (default 1)");
+    line.add("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
+    line.add("--threading", words.threading,
+             "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
+             "CullThreadPerCameraDrawThreadPerContext");
+    line.add("--repeats", settings.repeats, 1, 10000,
+             "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold caches "
+             "(default 40)");
+    line.add(
+        "--flush", settings.flush, 0, 65536,
+        "MiB that are touched before each cull with cold caches\n(default twice the last-level cache, 64 at least; "
+        "0: no such culls)");
+    line.add("--live", settings.live, 0, 100000,
+             "frames from pose to pose of the flight after the poses\n(default 10, 0: no flight)");
+    line.add("--frames", settings.frames, 1, 1000000, "only fly continuously, that many frames in all");
+    line.add("--draw", settings.draw,
+             "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
+    line.add("--jumps", settings.jumps,
+             "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
+    line.add("--frame-rate", settings.frameRate, 0.1, 10000.0,
+             "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)");
+    line.add("--expiry", words.expiry,
+             "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its own "
+             "rule; for flights\n(default as bins: 3, or expiry= of --options)");
+    line.add("--timeout", settings.timeout, 0.001, 86400.0, "seconds that one pose may take to load (default 120)");
 }
 
 void check(const Settings& settings) {
@@ -230,18 +212,18 @@ void check(const Settings& settings) {
 }  // namespace
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
-    CLI::App app{"Measures the culling of a paged globe or map, method by method, along a camera path.", "osgbinbench"};
-    app.set_version_flag("--version", std::string("osgbinbench (osgAnalyticBin) ") + osgAnalyticBin::version());
+    support::CommandLine line("osgbinbench",
+                              "Measures the culling of a paged globe or map, method by method, along a camera path.",
+                              footer());
     Words words;
-    declare(app, settings, words);
-    if (!support::parseCommandLine(app, argc, argv)) return false;
+    declare(line, settings, words);
+    if (!line.parse(argc, argv)) return false;
     takeSize(words.size, settings);
     settings.threading = threadingFromName(words.threading);
     check(settings);
     const bool isAtPoses = settings.frames == 0 && !settings.jumps;
     if (settings.paths.empty() && isAtPoses && settings.report.empty()) settings.report = "report.html";
-    std::string error;
-    settings.expiry = words.expiry ? *words.expiry : cullOptionsFromText(settings.binOptions, error)->expiry;
+    settings.expiry = expiryFrom(words.expiry, settings.binOptions);
     return true;
 }
 

@@ -5,8 +5,8 @@
 
 #include "FrustumHull.h"
 #include "GlmBridge.h"
-#include "SurfaceBin.h"
 
+#include <osgAnalyticBin/TileSurface.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
@@ -127,7 +127,7 @@ double occluderDepth(const std::vector<core::GeodeticBin>& bins, const core::Ell
     };
     std::vector<Surface> surfaces;
     for (const core::GeodeticBin& bin : bins)
-        if (!bin.empty()) surfaces.push_back({leastDistance(bin, ellipsoid, eye), -bin.altitude().lower});
+        surfaces.push_back({leastDistance(bin, ellipsoid, eye), -bin.altitude().lower});
     double depth = 0.0;
     for (bool grows = true; grows;) {
         const double horizon = horizonDistance(ellipsoid, depth, eye);
@@ -146,36 +146,36 @@ void TileTruth::learnBins(const std::vector<flight::DrawnTile>& tiles) {
         if (tile.bin.valid()) _bins.insert_or_assign(tile.key, tile.bin);
 }
 
-const core::GeodeticBin& TileTruth::surfaceOf(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
-                                              const osg::Matrixd& worldToEcef) {
-    const auto found = _surfaces.find(tile.key);
-    if (found != _surfaces.end()) return found->second;
-    return _surfaces.emplace(tile.key, surfaceBin(tile, ellipsoid, worldToEcef)).first->second;
+const AnalyticBin& TileTruth::surfaceOf(const flight::DrawnTile& tile, const flight::Globe& globe) {
+    const auto [found, isNew] = _surfaces.try_emplace(tile.key);
+    if (!isNew) return found->second;
+    const osg::Matrixd worldToEcef = osg::Matrixd::inverse(globe.localToWorld);
+    for (const flight::DrawnMesh& mesh : tile.meshes) {
+        const AnalyticBin own = tileSurface(*mesh.drawable, *globe.ellipsoid, mesh.localToWorld * worldToEcef).bin;
+        if (!own.valid()) return found->second = AnalyticBin();
+        found->second.expandBy(own);
+    }
+    return found->second;
 }
 
 NeededTiles TileTruth::neededTiles(const std::vector<flight::DrawnTile>& tiles, const osg::Camera& view,
                                    const flight::Globe& globe) {
     const core::Ellipsoid ellipsoid = toCore(*globe.ellipsoid);
-    const osg::Matrixd worldToEcef = osg::Matrixd::inverse(globe.localToWorld);
     std::vector<core::GeodeticBin> surfaces;
-    for (const flight::DrawnTile& tile : tiles) surfaces.push_back(surfaceOf(tile, ellipsoid, worldToEcef));
+    for (const flight::DrawnTile& tile : tiles)
+        if (const AnalyticBin& surface = surfaceOf(tile, globe); surface.valid()) surfaces.push_back(surface.bin());
     View seen(view, globe, ellipsoid);
     seen.setOccluder(occluderDepth(surfaces, ellipsoid, seen.eye()));
-    // A tile of which nothing is known is needed.
-    const auto meets = [&](const AnalyticBin& bin) { return !bin.valid() || seen.meets(bin); };
-    const auto hides = [&](const AnalyticBin& bin) { return bin.valid() && seen.hides(bin); };
     NeededTiles needed;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const std::string& key = tiles[i].key;
-        const AnalyticBin surface(surfaces[i], kSurfaceMargin);
-        const auto known = _bins.find(key);
-        const AnalyticBin& bin = known == _bins.end() ? surface : known->second;
-        if (meets(surface) && !hides(surface)) needed.bySurface.insert(key);
-        if (!meets(bin)) continue;
-        if (hides(bin))
+    for (const flight::DrawnTile& tile : tiles) {
+        const auto known = _bins.find(tile.key);
+        const AnalyticBin& bin = known == _bins.end() ? surfaceOf(tile, globe) : known->second;
+        // A tile of which nothing is known is needed.
+        if (bin.valid() && !seen.meets(bin)) continue;
+        if (bin.valid() && seen.hides(bin))
             ++needed.hidden;
         else
-            needed.byBin.insert(key);
+            needed.keys.insert(tile.key);
     }
     return needed;
 }

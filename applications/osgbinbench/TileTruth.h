@@ -19,9 +19,8 @@ namespace osgAnalyticBin::bench {
 
 /// The tiles, by key, of those drawn without any culling, that a view needs.
 struct NeededTiles {
-    std::set<std::string> byBin;      ///< their bins' hulls meet the frustum, and are not hidden
-    std::set<std::string> bySurface;  ///< the same of their own surfaces, without descendants and skirts
-    std::uint64_t hidden = 0;         ///< bins that meet the frustum wholly behind the globe
+    std::set<std::string> keys;  ///< their bins' hulls meet the frustum, and are not hidden
+    std::uint64_t hidden = 0;    ///< bins that meet the frustum wholly behind the globe
 };
 
 /// Says which tiles are truly needed: the hull of the tile's bin meets the frustum, and the bin is not wholly
@@ -38,15 +37,15 @@ public:
     void learnBins(const std::vector<flight::DrawnTile>& tiles);
 
     /// `tiles`: all that are drawn without any culling.
-    /// Cost: the surface bin of every tile not met before, and some microseconds a tile.
+    /// Cost: the surface of every tile not met before, and some microseconds a tile.
     [[nodiscard]] NeededTiles neededTiles(const std::vector<flight::DrawnTile>& tiles, const osg::Camera& view,
                                           const flight::Globe& globe);
 
 private:
-    [[nodiscard]] const core::GeodeticBin& surfaceOf(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
-                                                     const osg::Matrixd& worldToEcef);
+    // What the tile's own meshes cover. Not valid: that is not known.
+    [[nodiscard]] const AnalyticBin& surfaceOf(const flight::DrawnTile& tile, const flight::Globe& globe);
 
-    std::map<std::string, core::GeodeticBin> _surfaces;
+    std::map<std::string, AnalyticBin> _surfaces;
     std::map<std::string, AnalyticBin> _bins;
 };
 

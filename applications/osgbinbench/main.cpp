@@ -5,7 +5,6 @@
 #include "Compare.h"
 #include "ContinuousPath.h"
 #include "DefaultPath.h"
-#include "DrawnFlight.h"
 #include "Failure.h"
 #include "FlightBench.h"
 #include "HtmlReport.h"
@@ -82,8 +81,7 @@ std::string notePartial(std::size_t measured, std::size_t poses) {
     return text;
 }
 
-template <class Figures>
-void tell(const Settings& settings, const std::vector<Figures>& figures) {
+void tell(const Settings& settings, const std::vector<FlightFigures>& figures) {
     write(settings, csvOf(figures), jsonOf(settings, figures));
     (void)notePartial(0, 0);
     print(std::cout, tablesOf(figures));

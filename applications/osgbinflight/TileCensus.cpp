@@ -109,7 +109,7 @@ void TileCensus::enter(osg::Node& node) {
     if (!isTile(getNodePath())) return;
     _openTiles.emplace_back();
     _openTiles.back().node = &node;
-    describePath(_openTiles.back().drawn);
+    _openTiles.back().drawn.key = keyOfPath();
     _openTiles.back().drawn.bin = binOfTile(getNodePath());
 }
 
@@ -132,17 +132,17 @@ void TileCensus::draw(osg::Drawable& drawable) {
     _openTiles.back().drawn.meshes.push_back({&drawable, localToWorld});
 }
 
-void TileCensus::describePath(DrawnTile& tile) const {
-    const osg::NodePath& path = const_cast<TileCensus*>(this)->getNodePath();
+std::string TileCensus::keyOfPath() {
+    const osg::NodePath& path = getNodePath();
+    std::string key;
     for (std::size_t i = 1; i < path.size(); ++i) {
         const osg::Group* const parent = path[i - 1]->asGroup();
         // a group that stands for its only child is there with bins, and is not without
         if (parent && isPlainGroup(*parent) && parent->getNumChildren() == 1) continue;
-        if (!tile.key.empty()) tile.key += '/';
-        tile.key += std::to_string(parent ? parent->getChildIndex(path[i]) : 0U);
-        const auto* const lod = dynamic_cast<const osg::PagedLOD*>(parent);
-        if (lod && isPaged(*lod, *path[i])) tile.pages.push_back(tile.key);
+        if (!key.empty()) key += '/';
+        key += std::to_string(parent ? parent->getChildIndex(path[i]) : 0U);
     }
+    return key;
 }
 
 }  // namespace osgAnalyticBin::flight

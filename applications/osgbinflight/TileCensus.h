@@ -32,8 +32,6 @@ struct DrawnTile {
     /// The bin by which the kit culls it, as it is shown: for the Terrain's vertical scale, with the skirts that count.
     /// Invalid where the kit has installed none.
     AnalyticBin bin;
-    /// The keys of the pages that had to be read for it, from the coarsest on; the root file is none.
-    std::vector<std::string> pages{};
 };
 
 /// What one cull traversal of a scene does.
@@ -69,7 +67,7 @@ private:
     void leave(osg::Node& node) override;
     void draw(osg::Drawable& drawable) override;
 
-    void describePath(DrawnTile& tile) const;
+    [[nodiscard]] std::string keyOfPath();
 
     std::vector<OpenTile> _openTiles;
     Census _census;

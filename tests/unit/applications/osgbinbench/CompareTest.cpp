@@ -83,7 +83,7 @@ void setTime(Json& file, const std::string& method, double factor) {
 TEST(Compare, FindsNothingInTheSameFile) {
     const Comparison same = compared(measurement(), measurement());
     EXPECT_FALSE(same.isWorse);
-    EXPECT_TRUE(same.says("beyond noise: 0 worse, 0 better, 0 changed otherwise")) << same.text;
+    EXPECT_TRUE(same.says("beyond noise: 0 worse, 0 better")) << same.text;
     EXPECT_TRUE(same.says("4 counts are the same")) << same.text;
     EXPECT_FALSE(same.says("warning")) << same.text;
     EXPECT_EQ(same.line("exact", "cull_ms/sphere"), "exact cull_ms/sphere 0.5000 0.5000 1.000 0.071 within noise");
@@ -92,21 +92,12 @@ TEST(Compare, FindsNothingInTheSameFile) {
 TEST(Compare, SaysEveryChangeOfACount) {
     Json after = measurement();
     after["methods"]["exact"]["drawn_tiles"] = 13;
-    after["by_pose"]["exact"]["drawn_tiles"] = {6, 7};
     const Comparison worse = compared(measurement(), after);
     EXPECT_TRUE(worse.isWorse);
-    EXPECT_EQ(worse.line("exact", "drawn_tiles"), "exact drawn_tiles 12 13 1.083 1.00 .. 1.17 WORSE");
+    EXPECT_EQ(worse.line("exact", "drawn_tiles"), "exact drawn_tiles 12 13 1.083 WORSE");
     const Comparison better = compared(after, measurement());
     EXPECT_FALSE(better.isWorse);
-    EXPECT_EQ(better.line("exact", "drawn_tiles"), "exact drawn_tiles 13 12 0.923 0.86 .. 1.00 better");
-}
-
-TEST(Compare, SaysWhatMovedFromPoseToPose) {
-    Json after = measurement();
-    after["by_pose"]["exact"]["drawn_tiles"] = {5, 7};
-    const Comparison moved = compared(measurement(), after);
-    EXPECT_FALSE(moved.isWorse);
-    EXPECT_EQ(moved.line("exact", "drawn_tiles"), "exact drawn_tiles 12 12 1.000 0.83 .. 1.17 changed");
+    EXPECT_EQ(better.line("exact", "drawn_tiles"), "exact drawn_tiles 13 12 0.923 better");
 }
 
 TEST(Compare, CountsThatWereZeroCanOnlyGrow) {
@@ -123,7 +114,7 @@ TEST(Compare, DoesNotJudgeWhatBelongsToTheView) {
     after["methods"]["exact"]["truth_tiles"] = 11;
     const Comparison comparison = compared(measurement(), after);
     EXPECT_FALSE(comparison.isWorse);
-    EXPECT_EQ(comparison.line("exact", "truth_tiles"), "exact truth_tiles 10 11 1.100 1.00 .. 1.00 changed");
+    EXPECT_EQ(comparison.line("exact", "truth_tiles"), "exact truth_tiles 10 11 1.100 changed");
 }
 
 TEST(Compare, JudgesTimesByTheSpheres) {
@@ -132,8 +123,7 @@ TEST(Compare, JudgesTimesByTheSpheres) {
     setTime(slowMachine, "exact", 1.5);
     const Comparison drift = compared(measurement(), slowMachine);
     EXPECT_FALSE(drift.isWorse) << drift.text;
-    EXPECT_NE(drift.line("exact", "cull_ms").find("changed"), std::string::npos) << drift.text;
-
+    EXPECT_EQ(drift.line("sphere", "cull_ms"), "sphere cull_ms 2 3 1.500");
     Json slower = slowMachine;
     setTime(slower, "exact", 1.2);
     const Comparison worse = compared(measurement(), slower);
@@ -151,21 +141,8 @@ TEST(Compare, JudgesTimesAsTheyAreWithoutSpheres) {
     EXPECT_FALSE(compared(before, after).isWorse);
     setTime(after, "exact", 1.2);
     EXPECT_TRUE(compared(before, after).isWorse);
-    after["methods"]["exact"].erase("cull_spread_ms");  // no noise known
+    after["by_pose"]["exact"].erase("cull_spread_ms");  // no noise known
     EXPECT_FALSE(compared(before, after).isWorse);
-}
-
-TEST(Compare, JudgesTimesWithColdCachesLikeOthers) {
-    Json before = measurement();
-    for (const char* const method : {"sphere", "exact"}) {
-        before["methods"][method]["cull_cold_ms"] = 4.0;
-        before["methods"][method]["cull_cold_spread_ms"] = 0.4;
-    }
-    Json after = before;
-    after["methods"]["exact"]["cull_cold_ms"] = 6.0;
-    const Comparison comparison = compared(before, after);
-    EXPECT_TRUE(comparison.isWorse);
-    EXPECT_NE(comparison.line("exact", "cull_cold_ms/sphere").find("WORSE"), std::string::npos) << comparison.text;
 }
 
 TEST(Compare, TakesAtLeastFivePercentForNoise) {
@@ -178,29 +155,13 @@ TEST(Compare, TakesAtLeastFivePercentForNoise) {
     EXPECT_TRUE(compared(before, after).isWorse);
 }
 
-TEST(Compare, TakesTheSumsSpreadWhereThereAreNoPoses) {
-    Json before = measurement();
-    before.erase("pose_names");
-    before.erase("by_pose");
+TEST(Compare, DoesNotJudgeAContinuousFlight) {
+    const Json before = {{"mode", "flight"}, {"methods", {{"exact", {{"files_requested", 3}, {"cull_ms", 1.0}}}}}};
     Json after = before;
-    setTime(after, "exact", 1.08);
-    EXPECT_FALSE(compared(before, after).isWorse);  // four sums, a half spread of 0.05 each: 0.1
-    setTime(after, "exact", 1.08);
-    EXPECT_TRUE(compared(before, after).isWorse);
-}
-
-TEST(Compare, DoesNotJudgeTheLivePhaseNorAContinuousFlight) {
-    Json before = measurement();
-    before["live"] = {{"frames", 9}, {"methods", {{"exact", {{"files_requested", 3}, {"cull_ms", 1.0}}}}}};
-    Json after = before;
-    after["live"]["methods"]["exact"]["files_requested"] = 5;
-    const Comparison live = compared(before, after);
-    EXPECT_FALSE(live.isWorse);
-    EXPECT_EQ(live.line("exact", "files_requested"), "exact files_requested 3 5 1.667 changed");
-
-    const Json flight = {{"mode", "flight"}, {"methods", before["live"]["methods"]}};
-    const Json other = {{"mode", "flight"}, {"methods", after["live"]["methods"]}};
-    EXPECT_FALSE(compared(flight, other).isWorse);
+    after["methods"]["exact"] = {{"files_requested", 5}, {"cull_ms", 2.0}};
+    const Comparison flight = compared(before, after);
+    EXPECT_FALSE(flight.isWorse);
+    EXPECT_EQ(flight.line("exact", "files_requested"), "exact files_requested 3 5 1.667 changed");
 }
 
 TEST(Compare, WarnsOnceOfOtherConditions) {
@@ -212,15 +173,6 @@ TEST(Compare, WarnsOnceOfOtherConditions) {
         comparison.says("warning: not measured alike: database (\"earth.osgb\" and \"mars.osgb\"), "
                         "width (320 and 640)\n"))
         << comparison.text;
-}
-
-TEST(Compare, SaysWhatOnlyOneFileHas) {
-    Json after = measurement();
-    after["methods"]["paper"] = after["methods"]["exact"];
-    after["methods"]["exact"]["new_tiles"] = 1;
-    const Comparison comparison = compared(measurement(), after);
-    EXPECT_TRUE(comparison.says("new.json: paper new_tiles\n")) << comparison.text;
-    EXPECT_FALSE(comparison.isWorse);
 }
 
 TEST(Compare, RefusesWhatCannotBeCompared) {
@@ -236,26 +188,15 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
     EXPECT_NE(errorOf(good, otherMethods.dump()).find("no method is in both"), std::string::npos);
 }
 
-TEST(Compare, NamesABrokenFileAndWhatIsWrong) {
+TEST(Compare, NamesABrokenFile) {
     const std::string good = measurement().dump();
-    EXPECT_NE(errorOf(good, "{\"mode\": ").find("new.json: is no JSON"), std::string::npos);
-    EXPECT_NE(errorOf("[1, 2]", good).find("old.json: has no \"mode\" or no \"methods\""), std::string::npos);
-    EXPECT_NE(errorOf("", good).find("old.json: is no JSON"), std::string::npos);
-    Json broken = measurement();
-    broken["methods"]["exact"]["drawn_tiles"] = "many";
-    EXPECT_NE(errorOf(good, broken.dump()).find("methods.exact.drawn_tiles is no number"), std::string::npos);
-    broken = measurement();
-    broken["methods"]["exact"] = 3;
-    EXPECT_NE(errorOf(good, broken.dump()).find("methods.exact holds no figures"), std::string::npos);
-    broken = measurement();
-    broken["by_pose"]["exact"]["drawn_tiles"] = {6};
-    EXPECT_NE(errorOf(good, broken.dump()).find("by_pose.exact.drawn_tiles"), std::string::npos);
-    broken = measurement();
-    broken["by_pose"]["exact"] = {1, 2};
-    EXPECT_NE(errorOf(good, broken.dump()).find("by_pose.exact.0"), std::string::npos);
-    broken = measurement();
-    broken["pose_names"] = {1, 2};
-    EXPECT_NE(errorOf(good, broken.dump()).find("pose_names"), std::string::npos);
+    EXPECT_NE(errorOf(good, "{\"mode\": ").find("new.json: is not what"), std::string::npos);
+    EXPECT_NE(errorOf("[1, 2]", good).find("old.json: is not what"), std::string::npos);
+    for (const char* const place : {"/methods/exact/drawn_tiles", "/methods", "/by_pose"}) {
+        Json broken = measurement();
+        broken[Json::json_pointer(place)] = "many";
+        EXPECT_NE(errorOf(good, broken.dump()).find("new.json: "), std::string::npos) << place;
+    }
     std::ostringstream output;
     EXPECT_THROW((void)compareFiles("/nowhere/a.json", "/nowhere/b.json", output), Failure);
 }

@@ -80,18 +80,14 @@ TEST(CullMethod, PlainNamesCullByPlanesAlone) {
         EXPECT_EQ(both.horizon, -5.0) << name;
         EXPECT_EQ(both.skirts, SkirtUse::All) << name;
         EXPECT_TRUE(both.edges) << name;
+        EXPECT_EQ(both.occlusion, OcclusionUse::Off) << name;
+        const CullOptions all = optionsOf(std::string(name) + "+horizon+edges+occlusion");
+        EXPECT_EQ(all.horizonUse, HorizonUse::Declared) << name;
+        EXPECT_EQ(all.occlusion, OcclusionUse::On) << name;
+        EXPECT_TRUE(all.edges) << name;
+        EXPECT_FALSE(optionsOf(std::string(name) + "+horizon+occlusion").edges) << name;
     }
     EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
-}
-
-TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
-    EXPECT_EQ(optionsOf("exact+horizon+edges").occlusion, OcclusionUse::Off);
-    for (const char* const name : {"exact+horizon+edges+occlusion", "quadratic+horizon+occlusion"}) {
-        EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
-        EXPECT_EQ(optionsOf(name).horizonUse, HorizonUse::Declared) << name;
-    }
-    EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").edges);
-    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").edges);
 }
 
 TEST(CullMethod, BinsAreThoseThatUsersHave) {
@@ -111,27 +107,10 @@ TEST(CullMethod, NamesThePseudoLoader) {
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
-    for (const char* const name : {"spheres",
-                                   "sphere+horizon",
-                                   "sphere+raster",
-                                   "exact+raster",
-                                   "none+edges",
-                                   "cluster+horizon",
-                                   "oracle+horizon",
-                                   "orientedboxes",
-                                   "exact+edges+horizon",
-                                   "exact+horizon+horizon",
-                                   "exact+",
-                                   "+horizon",
-                                   "",
-                                   "exact+occlusion",
-                                   "exact+edges+occlusion",
-                                   "box+horizon+occlusion",
-                                   "exact+horizon+occlusion+edges",
-                                   "sphere+occlusion",
-                                   "bins+horizon",
-                                   "cluster+raster",
-                                   "paper"})
+    for (const char* const name :
+         {"spheres", "sphere+horizon", "exact+raster", "oracle+horizon", "exact+edges+horizon", "exact+horizon+horizon",
+          "exact+", "+horizon", "", "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges",
+          "bins+horizon", "cluster+raster", "paper"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

@@ -86,18 +86,11 @@ TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
 }
 
 TEST(Output, JsonHoldsTheLiveFlightBesideTheSums) {
-    FlightFigures flight;
-    flight.method = "sphere";
-    flight.frames = 7;
-    flight.filesRequested = 5;
-    flight.cullMs = 2.0;
+    const FlightFigures flight{"sphere", {{"frames", 7}, {"files_requested", 5}, {"cull_ms", 2.0}}};
     const auto json = nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods(), {flight}));
     EXPECT_EQ(json["live"]["frames"], 7);
     EXPECT_EQ(json["live"]["methods"]["sphere"]["files_requested"], 5);
     EXPECT_DOUBLE_EQ(json["live"]["methods"]["sphere"]["cull_ms"].get<double>(), 2.0);
-    for (const char* const key :
-         {"drawn_tiles", "resident_tiles", "missing_frames", "bytes", "cull_median_ms", "cull_99th_ms"})
-        EXPECT_TRUE(json["live"]["methods"]["sphere"].contains(key)) << key;
     EXPECT_FALSE(nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods())).contains("live"));
 }
 
@@ -116,8 +109,8 @@ TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     print(output, tablesOf({"a", "b"}, twoMethods()));
     EXPECT_NE(output.str().find("ratio to sphere"), std::string::npos);
     EXPECT_EQ(output.str().find("ratio to cluster"), std::string::npos);
-    EXPECT_NE(output.str().find("drawn_tiles          2.000   1.000"), std::string::npos) << output.str();
-    EXPECT_NE(output.str().find("cull_cold_ms         2.000   1.000"), std::string::npos) << output.str();
+    EXPECT_NE(output.str().find("drawn_tiles        2.000   1.000"), std::string::npos) << output.str();
+    EXPECT_NE(output.str().find("cull_cold_ms       2.000   1.000"), std::string::npos) << output.str();
 }
 
 TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
@@ -131,8 +124,8 @@ TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
     methods[2].poses[0].cullColdMs = 1.0;
     std::ostringstream with;
     print(with, tablesOf({"down_1", "far_1"}, methods));
-    EXPECT_NE(with.str().find("over_oracle          0.000   3.000   1.000"), std::string::npos) << with.str();
-    EXPECT_NE(with.str().find("cold_over_oracle     5.000   2.500   1.000"), std::string::npos) << with.str();
+    EXPECT_NE(with.str().find("over_oracle        0.000   3.000   1.000"), std::string::npos) << with.str();
+    EXPECT_NE(with.str().find("cold_over_oracle   5.000   2.500   1.000"), std::string::npos) << with.str();
     EXPECT_NE(with.str().find("    0.250         1.000        2.000             1.000\n"), std::string::npos)
         << "by path: " << with.str();
 }

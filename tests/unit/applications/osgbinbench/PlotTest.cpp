@@ -28,7 +28,6 @@ MethodFigures figuresOf(const std::string& method, std::uint64_t drawn, double c
     for (Figures& pose : figures.poses) {
         pose.truthTiles = 4;
         pose.drawnTiles = drawn;
-        pose.triangles = 100 * drawn;
         pose.filesRequested = 3;
         pose.cullMs = cullMs;
         pose.cullSpreadMs = cullMs / 4.0;
@@ -69,15 +68,12 @@ bool hasGnuplot() {
 
 TEST(Plot, DataHoldRatiosAndMeansByPathWithoutTheReference) {
     const std::vector<Diagram> all = diagrams();
-    ASSERT_EQ(all.size(), 4U);
+    ASSERT_EQ(all.size(), 3U);
     EXPECT_EQ(named(all, "drawn").data, "path,sphere,a+b_c\ndown,2,1\nfar,2,1\n");
     EXPECT_EQ(named(all, "files").data, "path,sphere,a+b_c\ndown,3,3\nfar,3,3\n");
     EXPECT_EQ(named(all, "cull").data,
               "path,sphere,sphere half spread,a+b_c,a+b_c half spread\n"
               "down,1,0.125,0.5,0.0625\nfar,1,0.125,0.5,0.0625\n");
-    const std::string poses = named(all, "poses").data;
-    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 4);
-    EXPECT_NE(poses.find("\nfar_1,4,8,4,800,400,3,3\n"), std::string::npos) << poses;
 }
 
 TEST(Plot, ShowsTheReferenceWhereItIsAlone) {

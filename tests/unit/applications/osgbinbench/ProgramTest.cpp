@@ -79,12 +79,10 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     ASSERT_FALSE(bench.database.empty());
     const Json first = withoutTimes(bench.run("first", "--live 0"));
     ASSERT_EQ(first.size(), 4U);
-    EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0")));
+    // bins are tested alike in every threading model: ViewerFlight.EveryThreadingModelDrawsTheSamePictures
+    EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0 --threading CullThreadPerCameraDrawThreadPerContext")));
     // pose by pose too
     EXPECT_EQ(countsOf(bench.folder / "first.csv"), countsOf(bench.folder / "second.csv"));
-    for (const char* const model :
-         {"CullDrawThreadPerContext", "DrawThreadPerContext", "CullThreadPerCameraDrawThreadPerContext"})
-        EXPECT_EQ(first, withoutTimes(bench.run(model, std::string("--live 0 --threading ") + model))) << model;
 }
 
 TEST(Program, JudgesEveryMethodByTheReference) {
@@ -94,13 +92,14 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     const Json methods =
         bench.run("sums",
                   "--live 0 --methods sphere,cluster,box,orientedbox,orientedbox+horizon+edges,corners,corners+horizon,"
-                  "quadratic,quadratic+horizon,exact,exact+horizon+edges,oracle --options horizon=-6000");
+                  "quadratic,quadratic+horizon,exact,exact+horizon+edges,oracle --options horizon=-6000 --pictures " +
+                      test::quoted(bench.folder / "pictures"));
     ASSERT_TRUE(methods.contains("none"));
+    for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact+horizon+edges/narrow.png"})
+        EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
     const Json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
     EXPECT_LE(none["visible_tiles"], none["truth_tiles"]);
-    EXPECT_GT(none["visible_files"], 0);
-    EXPECT_LE(none["surface_tiles"], none["truth_tiles"]);
     EXPECT_GT(none["hidden_tiles"], 0);
     EXPECT_GE(none["resident_tiles"], none["tested_tiles"]);
     EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
@@ -110,7 +109,6 @@ TEST(Program, JudgesEveryMethodByTheReference) {
                                     "quadratic+horizon", "exact", "exact+horizon+edges", "oracle"}) {
         EXPECT_EQ(methods[sound]["false_culls"], 0) << sound;
         EXPECT_EQ(methods[sound]["differing_pixels"], 0) << sound;
-        EXPECT_GE(methods[sound]["files_requested"], none["visible_files"]) << sound;
         EXPECT_GT(methods[sound]["bytes"], 0) << sound;
         EXPECT_GT(methods[sound]["cull_ms"], 0.0) << sound;
         EXPECT_GT(methods[sound]["cull_cold_ms"], 0.0) << sound;
@@ -136,25 +134,13 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_GT(methods["corners"]["differing_pixels"], 0);
 }
 
-TEST(Program, SavesAPictureForEachPoseAndMethod) {
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const Bench bench;
-    ASSERT_FALSE(bench.database.empty());
-    const Json methods = bench.run(
-        "pictures", "--live 0 --flush 0 --methods exact+horizon --pictures " + test::quoted(bench.folder / "pictures"));
-    ASSERT_TRUE(methods.contains("none"));
-    EXPECT_GT(methods["none"]["cull_ms"], 0.0);
-    EXPECT_EQ(methods["none"]["cull_cold_ms"], 0.0) << "not measured";
-    for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact+horizon/narrow.png"})
-        EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
-}
-
 TEST(Program, FliesContinuously) {
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const Json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,exact");
-    ASSERT_EQ(methods.size(), 3U);
+    const Json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,oracle");
+    ASSERT_EQ(methods.size(), 3U) << "what the oracle repeats flies in its place";
+    EXPECT_TRUE(methods.contains("exact+horizon+edges"));
     for (const Json& method : methods) {
         EXPECT_EQ(method["frames"], 30);
         EXPECT_GT(method["files_requested"], 0);
@@ -164,20 +150,18 @@ TEST(Program, FliesContinuously) {
 
 TEST(Program, TimesTheFramesOfAFlightThatItDraws) {
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    Bench bench;
-    for (const char* const threading : {"SingleThreaded", "DrawThreadPerContext"}) {
-        SCOPED_TRACE(threading);
-        const Json methods =
-            bench.run("drawn", std::string("--frames 12 --draw --methods sphere,exact --threading ") + threading);
-        EXPECT_EQ(methods.size(), 2U) << "none is not drawn";
-        for (const auto& [name, method] : methods.items()) {
-            EXPECT_EQ(method["frames"], 33) << name << ": three flights, without their first frames";
-            EXPECT_GT(method["cull_ms"], 0.0) << name;
-            EXPECT_GT(method["draw_ms"], 0.0) << name;
-            EXPECT_LE(method["work_1st_ms"], method["work_median_ms"]) << name;
-            EXPECT_LE(method["work_median_ms"], method["work_99th_ms"]) << name;
-            EXPECT_LE(method["frame_median_ms"], method["frame_99th_ms"]) << name;
-        }
+    const Bench bench;
+    // its times come some frames late
+    const Json methods =
+        bench.run("drawn", "--frames 12 --draw --methods sphere,exact --threading DrawThreadPerContext");
+    EXPECT_EQ(methods.size(), 2U) << "none is not drawn";
+    for (const auto& [name, method] : methods.items()) {
+        EXPECT_EQ(method["frames"], 33) << name << ": three flights, without their first frames";
+        EXPECT_GT(method["cull_ms"], 0.0) << name;
+        EXPECT_GT(method["draw_ms"], 0.0) << name;
+        EXPECT_LE(method["work_1st_ms"], method["work_median_ms"]) << name;
+        EXPECT_LE(method["work_median_ms"], method["work_99th_ms"]) << name;
+        EXPECT_LE(method["frame_median_ms"], method["frame_99th_ms"]) << name;
     }
 }
 
@@ -194,20 +178,6 @@ TEST(Program, JumpsAndWaitsUntilNothingIsMissing) {
         EXPECT_GT(method["drawn_tiles"], poses[name]["drawn_tiles"]) << name << ": of more frames than poses";
         EXPECT_LE(method["files_requested"], poses[name]["files_requested"]) << name << ": what is there serves again";
     }
-}
-
-TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const Bench bench;
-    ASSERT_FALSE(bench.database.empty());
-    const std::string flight = "--frames 30 --frame-rate 15 --methods sphere,exact ";
-    setenv("OSG_MAX_PAGEDLOD", "1", 1);  // what may expire, does
-    Json byOsg = bench.run("osg", flight + "--options expiry=1000 --expiry osg");
-    Json byNumber = bench.run("number", flight + "--options expiry=0 --expiry 1000");
-    unsetenv("OSG_MAX_PAGEDLOD");
-    ASSERT_TRUE(byOsg.contains("sphere") && byNumber.contains("sphere"));
-    EXPECT_LT(byOsg["sphere"]["resident_tiles"], byNumber["sphere"]["resident_tiles"]);
-    EXPECT_LT(byNumber["exact"]["resident_tiles"], byOsg["exact"]["resident_tiles"]) << "bins go by their own option";
 }
 
 TEST(Program, FliesAroundADatabaseWithoutAPathAndReports) {
@@ -258,20 +228,6 @@ TEST(Program, ReportsWhatWasMeasuredBeforeCtrlC) {
     EXPECT_EQ(sums["interrupted"], true);
     EXPECT_EQ(sums["poses"], 1);
     EXPECT_NE(test::textOfFile(page).find("PARTIAL RESULT"), std::string::npos);
-}
-
-TEST(Program, LeavesTheOracleOutOfFlights) {
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const Bench bench;
-    ASSERT_FALSE(bench.database.empty());
-    const std::string json = bench.folder / "flight.json";
-    const Outcome outcome = test::runBench(test::quoted(bench.database) + " --path " + test::quoted(bench.path) +
-                                           " --frames 2 --methods oracle --json " + test::quoted(json));
-    EXPECT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_EQ(outcome.linesWith("oracle does not fly"), 1) << outcome.text;
-    const Json methods = test::jsonFile(json)["methods"];
-    EXPECT_TRUE(methods.contains("exact+horizon+edges"));
-    EXPECT_FALSE(methods.contains("oracle"));
 }
 
 TEST(Program, FliesOnceMoreWithPagingLive) {

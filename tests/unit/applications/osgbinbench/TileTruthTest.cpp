@@ -4,7 +4,6 @@
 // Which tiles a view needs. Oracles: bins and eyes for which the answer follows from their angles; hulls by libccd and
 // lines of sight in long double for random ones.
 
-#include "SurfaceBin.h"
 #include "TileTruth.h"
 
 #include <gtest/gtest.h>
@@ -33,32 +32,15 @@ osg::Vec3 at(double latDeg, double lonDeg, double altitude) {
     return osg::Vec3(osg::Vec3d(p.x, p.y, p.z));
 }
 
-// One degree wide, from the south-west corner on, with a skirt to the south that hangs 20 km down.
-flight::DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool texCoords = true) {
+// One degree wide, from the south-west corner on.
+flight::DrawnTile tileAt(const std::string& key, double southDeg, double westDeg) {
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    const osg::Vec3 corners[] = {at(southDeg, westDeg, 0),         at(southDeg, westDeg + 1, 0),
-                                 at(southDeg + 1, westDeg + 1, 0), at(southDeg + 1, westDeg, 0),
-                                 at(southDeg, westDeg, -20000),    at(southDeg, westDeg + 1, -20000)};
-    const osg::Vec2 places[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}};
+    const osg::Vec3 corners[] = {at(southDeg, westDeg, 0), at(southDeg, westDeg + 1, 0),
+                                 at(southDeg + 1, westDeg + 1, 0), at(southDeg + 1, westDeg, 0)};
     geometry->setVertexArray(new osg::Vec3Array(std::begin(corners), std::end(corners)));
-    if (texCoords) geometry->setTexCoordArray(0, new osg::Vec2Array(std::begin(places), std::end(places)));
-    const unsigned int indices[] = {0, 1, 2, 0, 2, 3, 4, 1, 0, 4, 5, 1};
-    geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 12, indices));
+    const unsigned int indices[] = {0, 1, 2, 0, 2, 3};
+    geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 6, indices));
     return {key, {{geometry, osg::Matrixd()}}, {}};
-}
-
-TEST(SurfaceBin, LeavesTheSkirtOut) {
-    const GeodeticBin bin = surfaceBin(tileAt("t", 10, 20), earth(), osg::Matrixd());
-    EXPECT_NEAR(bin.latitude().lower, 10 * kRadiansPerDegree, 1e-6);
-    EXPECT_NEAR(bin.longitude().upper, 21 * kRadiansPerDegree, 1e-6);
-    EXPECT_NEAR(bin.altitude().upper, 0.0, 1.0);
-    EXPECT_GT(bin.altitude().lower, -1000.0);  // the sag of chords of one degree: 8 tan(1/2 degree) ... 486 m
-    EXPECT_LT(bin.altitude().lower, -400.0);
-}
-
-TEST(SurfaceBin, KeepsTheSkirtThatCannotBeTold) {
-    const GeodeticBin bin = surfaceBin(tileAt("t", 10, 20, false), earth(), osg::Matrixd());
-    EXPECT_LT(bin.altitude().lower, -19999.0);
 }
 
 TEST(OccluderDepth, GrowsOnlyByWhatIsBeforeItsOwnHorizon) {
@@ -81,13 +63,13 @@ TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
     camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
     TileTruth truth;
     const flight::Globe globe{kModel, osg::Matrixd()};
-    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe).bySurface, std::set<std::string>{"ahead"});
+    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe).keys, std::set<std::string>{"ahead"});
     // A globe that is moved takes its camera along.
     const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
     std::vector<flight::DrawnTile> movedTiles = tiles;
     for (flight::DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
     camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
-    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}).bySurface, std::set<std::string>{"ahead"});
+    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}).keys, std::set<std::string>{"ahead"});
 }
 
 AnalyticBin binAt(double southDeg, double westDeg, double low, double high) {
@@ -103,7 +85,7 @@ TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
     const flight::Globe globe{kModel, osg::Matrixd()};
     TileTruth truth;
     const NeededTiles bySurface = truth.neededTiles(tiles, *camera, globe);
-    EXPECT_EQ(bySurface.byBin, std::set<std::string>{"ahead"});
+    EXPECT_EQ(bySurface.keys, std::set<std::string>{"ahead"});
     EXPECT_EQ(bySurface.hidden, 1U);
     // What finer descendants of "far" have in store rises above the horizon; "mountain" stays beside the frustum.
     std::vector<flight::DrawnTile> withBins = tiles;
@@ -111,8 +93,7 @@ TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
     withBins[2].bin = binAt(-0.5, 8, -500, 50000);
     truth.learnBins(withBins);
     const NeededTiles byBin = truth.neededTiles(tiles, *camera, globe);
-    EXPECT_EQ(byBin.byBin, (std::set<std::string>{"ahead", "far"}));
-    EXPECT_EQ(byBin.bySurface, std::set<std::string>{"ahead"});
+    EXPECT_EQ(byBin.keys, (std::set<std::string>{"ahead", "far"}));
     EXPECT_EQ(byBin.hidden, 0U);
 }
 
@@ -160,7 +141,7 @@ TEST(TileTruth, AgreesWithHullsAndLinesOfSight) {
         truth.learnBins({{"t", {}, AnalyticBin(bin)}});
         const NeededTiles needed =
             truth.neededTiles({{"t", {}, {}}}, *cameraOf(view), flight::Globe{kModel, osg::Matrixd()});
-        const bool isCounted = !needed.byBin.empty() || needed.hidden > 0;
+        const bool isCounted = !needed.keys.empty() || needed.hidden > 0;
         const bool meets = test::hullsMeet(earth(), bin, view);
         EXPECT_TRUE(isCounted || !meets) << i;
         meeting += meets ? 1 : 0;
