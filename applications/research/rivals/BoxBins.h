@@ -77,7 +77,7 @@ private:
 
 /// The usual reverse test: whether the frustum is wholly beyond one face of the box.
 /// Guarantee: true only if no point of the bin, margin included, is inside all of the frustum's planes;
-/// tests: BoxBins.ReverseTestPartsNoBinFromAPointOfIt, HullSoundness.HasNoFalseVerdict.
+/// test: HullSoundness.HasNoFalseVerdict.
 /// Cost: up to six faces times eight corners; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const BoxBin& box, const FrustumHull& frustum) noexcept;
 /// As that of BoxBin.

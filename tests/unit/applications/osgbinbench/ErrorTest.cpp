@@ -80,13 +80,5 @@ TEST(Errors, OfTheDatabaseLeaveNoTable) {
     EXPECT_FALSE(std::filesystem::exists(csv));
 }
 
-TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
-    const Outcome outcome = test::runBenchBlind("--help");
-    EXPECT_EQ(outcome.code, 0);
-    for (const char* const word : {"false_culls", "cull_ms", "cull_cold_ms", "degrees and metres",
-                                   "Examples:", "--vertical-scale", "exact+horizon+edges"})
-        EXPECT_GE(outcome.linesWith(word), 1) << word;
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin

@@ -25,7 +25,7 @@ std::string randomPath() {
     test::Random random(1801);
     std::ostringstream path;
     path << "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n";
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < 12; ++i) {
         const double latitude = random.uniform(0.05, 0.7), longitude = random.uniform(0.1, 1.9);
         const double altitude = random.logUniform(400.0, 60000.0);
         const double reach = random.logUniform(0.005, 0.5);
@@ -64,7 +64,7 @@ TEST(Scenery, IsDrawnAsWithoutCullingAndNoMoreOftenThanWithSpheres) {
     const std::string json = folder / "sums.json", csv = folder / "poses.csv";
     const test::Outcome outcome = test::runBench(
         test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", randomPath())) +
-        " --methods sphere,quadratic+horizon+edges --size 480x270 --repeats 1 --flush 0 --live 0 --json " +
+        " --methods sphere,quadratic+horizon+edges --size 320x180 --repeats 1 --flush 0 --live 0 --json " +
         test::quoted(json) + " --csv " + test::quoted(csv));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(json)["methods"];
@@ -75,7 +75,7 @@ TEST(Scenery, IsDrawnAsWithoutCullingAndNoMoreOftenThanWithSpheres) {
     // without an index, files are requested as with spheres
     EXPECT_LE(bins["files_requested"], methods["sphere"]["files_requested"]);
     const Counts counts = drawablesIn(test::textOfFile(csv));
-    EXPECT_EQ(counts.size(), 24u);
+    EXPECT_EQ(counts.size(), 12u);
     for (const auto& [pose, drawables] : counts)
         EXPECT_LE(drawables.at("quadratic+horizon+edges"), drawables.at("sphere")) << pose;
 }

@@ -98,15 +98,6 @@ TEST_P(Slab, HasItsTopOutsideTheBin) {
     }
 }
 
-TEST_P(Slab, HasTwelveEdgesAndClosedFaces) {
-    const SlabMesh mesh = slabMesh(GetParam(), kEarth, SlabShape::Bin);
-    EXPECT_EQ(mesh.triangles.size() % 3, 0u);
-    EXPECT_EQ(mesh.lines.size() % 2, 0u);
-    EXPECT_GE(mesh.lines.size(), 24u);
-    for (const unsigned int index : mesh.triangles) ASSERT_LT(index, mesh.vertices.size());
-    for (const unsigned int index : mesh.lines) ASSERT_LT(index, mesh.vertices.size());
-}
-
 bool holds(const core::GeodeticBin& bin, const osg::Vec3d& ecef) {
     const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
     core::Geodetic at{};

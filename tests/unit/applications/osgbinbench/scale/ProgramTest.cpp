@@ -155,7 +155,8 @@ TEST(GlobePictures, AreThoseWithoutCulling) {
     const std::string result = folder / "sums.json";
     constexpr int kMostSeconds = 300;
     const Outcome outcome = test::runOnDisplay(
-        test::quoted(BENCH_FILE) + " '(levels=5,cells=4).proceduralglobe' --size 320x240 --repeats 1 --path " +
+        test::quoted(BENCH_FILE) +
+            " '(levels=4,cells=4).proceduralglobe' --size 320x240 --repeats 1 --flush 0 --live 0 --path " +
             test::quoted(folder.write("path.csv", kPath)) + " --json " + test::quoted(result),
         kMostSeconds);
     ASSERT_EQ(outcome.code, 0) << outcome.text;

@@ -211,22 +211,6 @@ FalseVerdicts falseVerdicts(std::uint64_t stream) {
     return wrong;
 }
 
-TEST(ComparisonBins, PlaneWithoutNumbersIsUndecided) {
-    const core::Ellipsoid wgs84(6378137.0, 6356752.3142);
-    const core::ParameterBox box =
-        core::parameterBox(core::GeodeticBin::fromDegrees({10.0, 12.0}, {20.0, 22.0}, {0.0, 9000.0}));
-    const rivals::PaperBin paper(core::GeodeticMapping(wgs84), box, rivals::PaperBin::kDefaultGrowth);
-    const rivals::CornersBin corners(core::GeodeticMapping(wgs84), box);
-    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-        for (int place = 0; place < 4; ++place) {
-            Plane plane{{0.0, 0.0, 1.0}, 0.0};
-            (place < 3 ? plane.normal[place] : plane.offset) = bad;
-            EXPECT_EQ(paper.classify(plane), Side::Straddling) << bad << ' ' << place;
-            EXPECT_EQ(corners.classify(plane), Side::Straddling) << bad << ' ' << place;
-        }
-    }
-}
-
 TEST(PaperBin, IsKnownToBeUnsound) {
     const FalseVerdicts wrong = falseVerdicts<PaperBin>(83);
     std::printf("paper: %d false outside, %d false inside of 100000 nearly tangent planes\n", wrong.outside,
@@ -241,30 +225,6 @@ TEST(CornersBin, IsKnownToBeUnsound) {
                 wrong.inside);
     EXPECT_GT(wrong.outside, 0);
     EXPECT_GT(wrong.inside, 0);
-}
-
-TEST(CornersBin, CullsTheHorizonItStandsOn) {
-    // A plane 10 km under the top of the bulge of a 22.5 degree tile, all of its corners below it.
-    const auto tile = core::GeodeticBin::fromDegrees({0.0, 22.5}, {0.0, 22.5}, {0.0, 1000.0});
-    const BinOracle oracle(wgs84(), tile);
-    const glm::dvec3 up = glm::normalize(rounded(geodeticToEcef(wgs84(), tile.center())));
-    const Plane plane{up, 10e3 - static_cast<double>(oracle.range(up).upper)};
-    EXPECT_EQ(CornersBin(GeodeticMapping(wgs84()), core::parameterBox(tile)).classify(plane), Side::Outside);
-    EXPECT_GT(oracle.distanceRange(plane).upper, 9999.0L);
-}
-
-TEST(ComparisonBins, PlanesWithoutAUnitNormalDecideNothing) {
-    const GeodeticMapping mapping(wgs84());
-    const ParameterBox box = core::parameterBox(core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
-    const PaperBin paper(mapping, box);
-    const CornersBin corners(mapping, box);
-    for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
-        for (const double offset : {-1e13, 1e13}) {
-            const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), offset};
-            EXPECT_DEBUG_DEATH(EXPECT_EQ(paper.classify(plane), Side::Straddling), "hasUnitNormal");
-            EXPECT_DEBUG_DEATH(EXPECT_EQ(corners.classify(plane), Side::Straddling), "hasUnitNormal");
-        }
-    }
 }
 
 }  // namespace

@@ -117,21 +117,6 @@ TEST(RivalCullCallback, TestsEdgesWhereTold) {
     }
 }
 
-TEST(RivalOptions, AreReadOrRefusedWithOneLine) {
-    std::string error;
-    const auto options = rivals::rivalOptionsFromText("method=box,horizon=-500,edges=on,skirts=all", error);
-    ASSERT_TRUE(options) << error;
-    EXPECT_EQ(options->rule, Rule::Box);
-    EXPECT_TRUE(options->usesHorizon && options->testsEdges);
-    EXPECT_EQ(options->binOptions, "horizon=-500,skirts=all,occlusion=off");
-    EXPECT_EQ(rivals::rivalOptionsFromText("", error)->binOptions, "horizon=off,occlusion=off");
-    for (const char* text : {"method=exact", "growth=0.5", "growth=x", "edges=maybe", "speed=9", "heights=3..1"}) {
-        error.clear();
-        EXPECT_FALSE(rivals::rivalOptionsFromText(text, error)) << text;
-        EXPECT_FALSE(error.empty() || error.find('\n') != std::string::npos) << error;
-    }
-}
-
 // Visits the nodes that the kit has put bins on.
 class TilesWithBins : public osg::NodeVisitor {
 public:
