@@ -148,20 +148,18 @@ TEST(Program, FliesContinuously) {
 
 TEST(Program, TimesTheFramesOfAFlightThatItDraws) {
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    Bench bench;
-    for (const char* const threading : {"SingleThreaded", "DrawThreadPerContext"}) {
-        SCOPED_TRACE(threading);
-        const Json methods =
-            bench.run("drawn", std::string("--frames 12 --draw --methods sphere,exact --threading ") + threading);
-        EXPECT_EQ(methods.size(), 2U) << "none is not drawn";
-        for (const auto& [name, method] : methods.items()) {
-            EXPECT_EQ(method["frames"], 33) << name << ": three flights, without their first frames";
-            EXPECT_GT(method["cull_ms"], 0.0) << name;
-            EXPECT_GT(method["draw_ms"], 0.0) << name;
-            EXPECT_LE(method["work_1st_ms"], method["work_median_ms"]) << name;
-            EXPECT_LE(method["work_median_ms"], method["work_99th_ms"]) << name;
-            EXPECT_LE(method["frame_median_ms"], method["frame_99th_ms"]) << name;
-        }
+    const Bench bench;
+    // its times come some frames late
+    const Json methods =
+        bench.run("drawn", "--frames 12 --draw --methods sphere,exact --threading DrawThreadPerContext");
+    EXPECT_EQ(methods.size(), 2U) << "none is not drawn";
+    for (const auto& [name, method] : methods.items()) {
+        EXPECT_EQ(method["frames"], 33) << name << ": three flights, without their first frames";
+        EXPECT_GT(method["cull_ms"], 0.0) << name;
+        EXPECT_GT(method["draw_ms"], 0.0) << name;
+        EXPECT_LE(method["work_1st_ms"], method["work_median_ms"]) << name;
+        EXPECT_LE(method["work_median_ms"], method["work_99th_ms"]) << name;
+        EXPECT_LE(method["frame_median_ms"], method["frame_99th_ms"]) << name;
     }
 }
 
