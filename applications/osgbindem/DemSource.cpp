@@ -51,10 +51,13 @@ double DemSource::post(int column, int row) {
 std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
+    // Nearly always one page has all four posts.
+    const Page* page = pageWith({cell->west, cell->first, cell->east - cell->west + 1, cell->second - cell->first + 1});
     SourceHeight result;
     bool isOwn = false;
     const auto at = [&](int column, int row) {
-        const double height = post(column, row);
+        const double height =
+            page ? page->heights[static_cast<std::size_t>(page->offset(column, row))] : post(column, row);
         if (!std::isnan(height)) {
             isOwn = true;
             return height;

@@ -133,7 +133,7 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
         own.heights.push_back(heights.at(column, row));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
-    compareWithFiner(own, tile.level, 0, skirt);
+    compareWithFiner(own, skirt);
     const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
@@ -146,40 +146,44 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
     return skirt;
 }
 
-void SkirtMeasure::compareWithFiner(const Line& own, int level, std::int64_t place, EdgeSkirt& skirt) {
+void SkirtMeasure::addFiner(const Line& own, int level, std::int64_t place, Segments& segments) {
     const TileId tile = own.tileAt(level, place);
     const auto other = tile.neighbour(own.edge);
     if (!_depths.hasChildren(tile) && !(other && _depths.hasChildren(*other))) return;
     const int shift = level + 1 - own.tile.level;
     const std::int64_t parts = std::int64_t{1} << shift;
-    const std::int64_t first = place * 2 * _layout.cells();  // post of the children's level
-    const std::int64_t end = first + 2 * _layout.cells();
-    for (std::int64_t segment = first >> shift; (segment << shift) < end; ++segment) {
-        const auto i = static_cast<std::size_t>(segment);
+    const std::int64_t posts = std::int64_t{2} * _layout.cells();
+    // Even posts belong to the levels between, which are compared by themselves.
+    for (std::int64_t along = place * posts + 1; along < (place + 1) * posts; along += 2) {
+        const auto i = static_cast<std::size_t>(along >> shift);
+        const double ends = std::min(own.heights[i], own.heights[i + 1]);
+        Segment& segment = segments.try_emplace({level, i}, Segment{0.0, 0.0, ends}).first->second;
+        const PostId post = own.post(level + 1, (own.along() << shift) + along, own.across() << shift);
+        const double share = static_cast<double>(along % parts) / static_cast<double>(parts);
+        const double height = _mosaic.height(_layout.position(post));
+        const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
+                                   _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
+                                   _layout.geodetic(post, 0.0), own.edge);
+        raise(segment.drop, gap.drop);
+        raise(segment.lean, gap.reach);
+        segment.lowest = std::min(segment.lowest, height);
+    }
+    for (const std::int64_t child : {2 * place, 2 * place + 1}) addFiner(own, level + 1, child, segments);
+}
+
+void SkirtMeasure::compareWithFiner(const Line& own, EdgeSkirt& skirt) {
+    Segments segments;
+    addFiner(own, own.tile.level, 0, segments);
+    for (const auto& [levelAndPlace, segment] : segments) {
+        const std::size_t i = levelAndPlace.second;
         const std::array<double, 2> ends{own.heights[i], own.heights[i + 1]};
-        double drop = 0.0;
-        double lean = 0.0;
-        double lowest = std::min(ends[0], ends[1]);
-        // Even posts belong to the levels between, which are compared by themselves.
-        for (std::int64_t along = std::max(first, segment << shift) + 1; along < std::min(end, (segment + 1) << shift);
-             along += 2) {
-            const PostId post = own.post(level + 1, (own.along() << shift) + along, own.across() << shift);
-            const double share = static_cast<double>(along % parts) / static_cast<double>(parts);
-            const double height = _mosaic.height(_layout.position(post));
-            const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
-                                       _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
-                                       _layout.geodetic(post, 0.0), own.edge);
-            raise(drop, gap.drop);
-            raise(lean, gap.reach);
-            lowest = std::min(lowest, height);
-        }
-        const bool isCliff = drop > kCliff * std::abs(ends[1] - ends[0]) && lowest > std::min(ends[0], ends[1]) - drop;
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-            raise(skirt.depth[i + side], isCliff ? ends[side] - lowest : drop);
-            raise(skirt.lean[i + side], lean);
+        const bool isCliff = segment.drop > kCliff * std::abs(ends[1] - ends[0]) &&
+                             segment.lowest > std::min(ends[0], ends[1]) - segment.drop;
+        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+            raise(skirt.depth[i + end], isCliff ? ends[end] - segment.lowest : segment.drop);
+            raise(skirt.lean[i + end], segment.lean);
         }
     }
-    for (const std::int64_t child : {2 * place, 2 * place + 1}) compareWithFiner(own, level + 1, child, skirt);
 }
 
 void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt) {

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
@@ -67,10 +68,20 @@ public:
 
 private:
     struct Line;
+    /// What finer posts between two posts of an edge are below the chord, and fall short of it outward.
+    struct Segment {
+        double drop = 0.0;
+        double lean = 0.0;
+        double lowest = 0.0;
+    };
+    /// By level and first post.
+    using Segments = std::map<std::pair<int, std::size_t>, Segment>;
 
     [[nodiscard]] EdgeSkirt measureEdge(const HeightGrid& heights, Edge edge);
-    /// With the tiles below those at a place along the edge, see Line::tileAt(), and only where there are any.
-    void compareWithFiner(const Line& own, int level, std::int64_t place, EdgeSkirt& skirt);
+    /// With all levels of tiles that stand along the edge, and only where they do.
+    void compareWithFiner(const Line& own, EdgeSkirt& skirt);
+    /// The tiles below those at a place along the edge, see Line::tileAt().
+    void addFiner(const Line& own, int level, std::int64_t place, Segments& segments);
     void compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt);
     [[nodiscard]] glm::dvec3 ecef(const PostId& post);
 

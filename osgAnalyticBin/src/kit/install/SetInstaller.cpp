@@ -7,6 +7,7 @@
 #include "../cull/CullScopes.h"
 #include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"
+#include "../database/DatabaseCallbacks.h"
 #include "ContentWatch.h"
 
 #include <osg/ComputeBoundsVisitor>
@@ -35,22 +36,11 @@ bool holdsBox(const osg::BoundingSphere& sphere, const osg::BoundingBox& box) {
 // saved as a ContentWatch that watches nothing.
 class LodWatch final : public ContentWatch {
 public:
-    LodWatch() = default;
-    LodWatch(const LodWatch& other, const osg::CopyOp& copyop) : ContentWatch(other, copyop) {}
-    osg::Object* clone(const osg::CopyOp& copyop) const override { return new LodWatch(*this, copyop); }
+    explicit LodWatch(osg::Node& node) { _previous = node.getComputeBoundingSphereCallback(); }
 
     [[nodiscard]] static const LodWatch* of(const osg::Node& node) {
         return dynamic_cast<const LodWatch*>(node.getComputeBoundingSphereCallback());
     }
-    static void place(osg::Node& node) {
-        const osg::ref_ptr<LodWatch> watch = new LodWatch;
-        watch->_node = &node;
-        const LodWatch* const before = of(node);
-        watch->_previous = before ? before->_previous.get() : node.getComputeBoundingSphereCallback();
-        node.setComputeBoundingSphereCallback(watch);
-        node.dirtyBound();
-    }
-
     [[nodiscard]] const osg::BoundingBox& loaded() const { return _loaded; }
 
     osg::BoundingSphere computeBound(const osg::Node& node) const override;
@@ -59,7 +49,6 @@ protected:
     ~LodWatch() override = default;
 
 private:
-    const osg::Node* _node = nullptr;
     mutable osg::BoundingBox _loaded;
 };
 
@@ -95,12 +84,6 @@ public:
 
 osg::BoundingSphere LodWatch::computeBound(const osg::Node& node) const {
     auto& lod = const_cast<osg::Node&>(node);
-    // a clone may share the watch of the original
-    if (&node != _node) {
-        const osg::ref_ptr<const LodWatch> self(this);
-        place(lod);
-        return of(node)->computeBound(node);
-    }
     const osg::BoundingSphere bound = boundOf(node);
     // otherwise OSG does not call this again when something below changes
     for (unsigned int i = 0; i < lod.asGroup()->getNumChildren(); ++i) (void)lod.asGroup()->getChild(i)->getBound();
@@ -130,7 +113,9 @@ public:
 
 class SetDatabase final : public Database {
 public:
-    explicit SetDatabase(const CullOptions& options) : Database(options, mapPlane(), nullptr, nullptr) {}
+    explicit SetDatabase(const CullOptions& options) : Database(options, mapPlane(), nullptr, nullptr) {
+        (void)decideGround(*mapPlane());
+    }
 
     std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile*) override {
         const Method method = options().method;
@@ -140,7 +125,8 @@ public:
         PagedReads reads;
         for (osg::LOD* const lod : found.lods) {
             removeFromLod(*lod);
-            if (!isOff) LodWatch::place(*lod);
+            if (!isOff) lod->setComputeBoundingSphereCallback(new LodWatch(*lod));
+            lod->dirtyBound();
             if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod))
                 reads.follow(*paged, frame, *this, nullptr, false);
         }
@@ -148,7 +134,7 @@ public:
     }
     void refit(osg::Node&) override {}
     void watch(osg::Group&) override {}
-    void installOnClone(osg::Node&) override {}
+    void installOnClone(osg::Node& root) override { (void)installOnSet(*root.asGroup(), options()); }
 
 protected:
     ~SetDatabase() override = default;
@@ -161,6 +147,11 @@ std::size_t installOnSet(osg::Group& set, const CullOptions& options) {
     std::size_t installed = 0;
     for (unsigned int i = 0; i < set.getNumChildren(); ++i)
         installed += database->install(*set.getChild(i), {}, nullptr);
+    detachDatabase(set);
+    if (installed == 0) return 0;
+    // clones have the flags of what is known now, and watches of their own after their first update
+    (void)set.getBound();
+    attachDatabase(set, *database, false);
     return installed;
 }
 
