@@ -22,7 +22,7 @@ struct Pipe {
 
 int main() {
     using namespace osgAnalyticBin;
-    const core::QuadraticBin bin(core::AutodiffMapping(Pipe()), {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
+    const core::QuadraticBin bin(core::AutodiffMapping{Pipe()}, {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
     osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setCullCallback(new QuadraticBinCullCallback(bin));
     const bool right = bin.classify({{1.0, 0.0, 0.0}, 0.0}) == core::Side::Inside;
