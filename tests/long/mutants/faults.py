@@ -156,11 +156,11 @@ FAULTS = [
 
     # a node's test
     Fault("planes that are decided stay set for the subgraph", "src/kit/cull/CullScopes.h",
-          "setUndecided(frustum, undecided);", "", NODE, "AnalyticBinCullCallback*"),
+          "setUndecided(frustum, undecided);", "", NODE, "DecidedPlanes.*"),
     Fault("no small features", "src/kit/cull/BinCulling.h", "isOutside(cullStack, test) || isSmallTile(", "isOutside(cullStack, test); (void)isSmallTile(", NODE,
-          "AnalyticBinCullCallback*:CulledCounts*"),
+          "CulledCounts*"),
     Fault("spheres about bins say what is small", "src/kit/cull/BinCulling.h", "(!tile.getBound().valid() || isSmall(", "(true || isSmall(", NODE,
-          "Scenery.*"),
+          "Spheres.*"),
     Fault("tiles are culled by bins while there are occluders", "src/kit/cull/CullScopes.h",
           "if (!cullStack || hasActiveOccluders(*cullStack)) {", "if (!cullStack) {", NODE, "Occluders*"),
     Fault("horizon in shadow passes", "src/kit/cull/Viewpoint.cpp",
@@ -168,7 +168,7 @@ FAULTS = [
           NODE, "*Shadow*:NestedCameras*"),
     Fault("a near plane behind the horizon's eye", "src/kit/cull/Viewpoint.cpp",
           "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
-          "(void)&distanceTo;", NODE, "*NearFar*:Projections*:HorizonCulling*"),
+          "(void)&distanceTo;", NODE, "Projections*"),
     Fault("skirts are not in the bin", "src/kit/cull/AnalyticBinCullCallback.cpp", "altitude.lower - _skirt", "altitude.lower",
           NODE, "*Skirt*:Border*:*Surface*"),
     Fault("eyes of other cameras", "src/kit/cull/AnalyticBinCullCallback.cpp",

@@ -5,6 +5,7 @@
 // tested in http/.
 
 #include "../../../osgAnalyticBin/src/kit/database/FailedReads.h"
+#include "CountedReads.h"
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -16,8 +17,6 @@
 #include <osgTerrain/Terrain>
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -61,29 +60,6 @@ TEST(FailedReads, SuccessForgetsEarlierFailures) {
     EXPECT_TRUE(failures.mayRead("late", kStart + FailedReads::kFirstWait));
 }
 
-/// Counts attempts for each file.
-class Attempts : public osgDB::ReadFileCallback {
-public:
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
-        {
-            const std::lock_guard<std::mutex> lock(_mutex);
-            ++_counts[name];
-        }
-        return osgDB::Registry::instance()->readNodeImplementation(name, options);
-    }
-
-    [[nodiscard]] int most() {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        int most = 0;
-        for (const auto& [name, count] : _counts) most = std::max(most, count);
-        return most;
-    }
-
-private:
-    std::mutex _mutex;
-    std::map<std::string, int> _counts;
-};
-
 class MissingTiles : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -105,7 +81,7 @@ protected:
 
     test::TemporaryFolder _folder;
     osg::ref_ptr<osg::Node> _scene;
-    osg::ref_ptr<Attempts> _attempts = new Attempts;
+    osg::ref_ptr<test::CountedReads> _attempts = new test::CountedReads;
     const CullView _view = CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
 };
 

@@ -72,11 +72,8 @@ protected:
     ReachedTiles _tiles;
 };
 
-TEST_P(NestedDatabaseCallback, RunsOnceAndMayPrune) {
+TEST_P(NestedDatabaseCallback, RunsOnceAndMayPruneAlsoAfterUpdatesAndFurtherInstallations) {
     expectTheGateToDecide();
-}
-
-TEST_P(NestedDatabaseCallback, OutlivesUpdatesAndFurtherInstallations) {
     const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
     _root->accept(*visitor);
     expectTheGateToDecide();

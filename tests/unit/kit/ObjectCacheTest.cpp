@@ -4,6 +4,7 @@
 // Tiles that are shared: by osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they have
 // read. A node may then be in a scene already, or be handed to several threads at once.
 
+#include "DatabaseFixture.h"
 #include "InstallerProbe.h"
 #include "PagedFlight.h"
 
@@ -36,10 +37,7 @@ constexpr int kThreads = 8;
 constexpr int kReads = 25;
 
 osg::ref_ptr<osg::PagedLOD> makeCachedTile(const std::string& fileName) {
-    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    paged->addChild(new osg::Group, 1e6f, 1e10f);
-    paged->setFileName(1, fileName);
-    paged->setRange(1, 0.0f, 1e6f);
+    osg::ref_ptr<osg::PagedLOD> paged = test::makePaged(new osg::Group, fileName);
     setStoredBin(*paged, kCachedBin);
     return paged;
 }
@@ -99,10 +97,12 @@ protected:
 };
 
 TEST_F(ObjectCache, ThreadsThatReadOneFileGetTilesThatWereTreatedOnce) {
-    const auto options = pagingOptions(osgDB::Options::CACHE_ALL);
-    readInThreads(*options);
-    expectOneVisitEach();
-    EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads)) << "it is asked each time";
+    for (const auto hint : {osgDB::Options::CACHE_NONE, osgDB::Options::CACHE_ALL}) {
+        _reader = new test::ProbingReader;
+        readInThreads(*pagingOptions(hint));
+        expectOneVisitEach();
+        EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads)) << "it is asked each time";
+    }
 }
 
 // As in a simulator that programs its page content.
@@ -186,13 +186,6 @@ TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
         std::exit(callbackIn(tile) ? 0 : 1);
     };
     EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");
-}
-
-TEST_F(ObjectCache, WithoutTheHintEveryReadIsFresh) {
-    const auto options = pagingOptions(osgDB::Options::CACHE_NONE);
-    readInThreads(*options);
-    expectOneVisitEach();
-    EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads));
 }
 
 TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {

@@ -47,22 +47,6 @@ TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
     }
 }
 
-TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
-    // beside the row: the ridge covers only the northern part of the tile behind it
-    const auto turned = [](double north) {
-        return CullView::lookAt(ecefDeg(-0.1, 0.1, 1000.0), ecefDeg(-0.1 + north, 1.1, 1000.0), {1, 0, 0}, 8.0);
-    };
-    for (const double step : {0.002, 0.01, 0.04}) {
-        // few tiles, so that all views show the same
-        RidgeGlobe globe(8000.0, 5);
-        installBins(*globe.root, withOcclusion());
-        double north = 0.28;
-        EXPECT_FALSE(globe.drawsFarTile(turned(north)));
-        for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
-        EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
-    }
-}
-
 // Compares a camera that turns with a new search for each view.
 TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
     Random random(1712);

@@ -3,6 +3,8 @@
 //
 // Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD.
 
+#include "CountedReads.h"
+#include "DatabaseFixture.h"
 #include "InstallerProbe.h"
 #include "PagedFlight.h"
 
@@ -25,7 +27,6 @@
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <thread>
-#include <unistd.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -36,12 +37,9 @@ using core::GeodeticBin;
 const AnalyticBin kPagedBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 
 osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
-    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(new osg::Vec3Array(300));
-    paged->addChild(geometry, 1e6f, 1e10f);
-    paged->setFileName(1, fileName);
-    paged->setRange(1, 0.0f, 1e6f);
+    osg::ref_ptr<osg::PagedLOD> paged = test::makePaged(geometry, fileName);
     setStoredBin(*paged, kPagedBin);
     return paged;
 }
@@ -53,20 +51,16 @@ osgDB::Options* optionsOf(osg::PagedLOD& paged) {
 class Paging : public ::testing::Test {
 protected:
     void SetUp() override {
-        _folder = fs::temp_directory_path() / ("osganalyticbin_paging_" + std::to_string(::getpid()));
-        fs::create_directories(_folder);
         osg::ref_ptr<osg::Group> children = new osg::Group;
         children->addChild(makePagedTile("grandchildren.osgb"));
         ASSERT_TRUE(osgDB::writeNodeFile(*children, file("children.osgb")));
         _root->addChild(_paged);
     }
-    void TearDown() override { fs::remove_all(_folder); }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return (_folder / name).string(); }
+    [[nodiscard]] std::string file(const std::string& name) const { return _folder / name; }
 
     osg::ref_ptr<osg::Node> readChildren() { return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged)); }
 
-    fs::path _folder;
+    test::TemporaryFolder _folder;
     osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
     osg::ref_ptr<osg::PagedLOD> _paged = makePagedTile("children.osgb");
 };
@@ -90,86 +84,29 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     EXPECT_NE(optionsOf(*tile)->getReadFileCallback(), nullptr);
 }
 
-class CountingReader : public osgDB::ReadFileCallback {
-public:
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
-        ++count;
-        return osgDB::Registry::instance()->readNodeImplementation(name, options);
+// As OSG has it: the options' own comes before the Registry's.
+TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
+    for (const bool hasOwn : {true, false}) {
+        const osg::ref_ptr<test::CountedReads> own = new test::CountedReads, registrys = new test::CountedReads;
+        const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
+        if (hasOwn) users->setReadFileCallback(own);
+        _paged->setDatabaseOptions(users);
+        osgDB::Registry::instance()->setReadFileCallback(registrys);
+        installBins(*_root);
+        installBins(*_root);  // twice must not chain twice
+        EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
+        const osg::ref_ptr<osg::Node> children = readChildren();
+        osgDB::Registry::instance()->setReadFileCallback(nullptr);
+        ASSERT_TRUE(children);
+        EXPECT_EQ(own->total(), hasOwn ? 1 : 0);
+        EXPECT_EQ(registrys->total(), hasOwn ? 0 : 1);
+        EXPECT_EQ(users->getReadFileCallback(), hasOwn ? own.get() : nullptr) << "theirs is not changed";
+        removeBins(*_root);
     }
-    int count = 0;
-};
-
-TEST_F(Paging, AUsersReadFileCallbackAndOptionsStillWork) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
-    users->setReadFileCallback(reader.get());
-    _paged->setDatabaseOptions(users.get());
-    installBins(*_root);
-    installBins(*_root);  // twice must not chain twice
-    EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
-    EXPECT_EQ(users->getReadFileCallback(), reader.get());  // theirs is not changed
-    ASSERT_TRUE(readChildren());
-    EXPECT_EQ(reader->count, 1);
-}
-
-TEST_F(Paging, TheRegistrysReadFileCallbackStillWorks) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    osgDB::Registry::instance()->setReadFileCallback(reader.get());
-    installBins(*_root);
-    const osg::ref_ptr<osg::Node> children = readChildren();
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    ASSERT_TRUE(children);
-    EXPECT_EQ(reader->count, 1);
-}
-
-// As OSG has it.
-TEST_F(Paging, AUsersReadFileCallbackWinsOverTheRegistrys) {
-    const osg::ref_ptr<CountingReader> own = new CountingReader;
-    const osg::ref_ptr<CountingReader> registrys = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options;
-    users->setReadFileCallback(own.get());
-    _paged->setDatabaseOptions(users.get());
-    osgDB::Registry::instance()->setReadFileCallback(registrys.get());
-    installBins(*_root);
-    const osg::ref_ptr<osg::Node> children = readChildren();
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    ASSERT_TRUE(children);
-    EXPECT_EQ(own->count, 1);
-    EXPECT_EQ(registrys->count, 0);
 }
 
 AnalyticBinCullCallback* firstCallback(osg::Node* file) {
     return file ? dynamic_cast<AnalyticBinCullCallback*>(file->asGroup()->getChild(0)->getCullCallback()) : nullptr;
-}
-
-TEST_F(Paging, GlobesOfOneSceneKeepTheirEllipsoidsAndOptionsApart) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("shared=by both");
-    users->setReadFileCallback(reader.get());
-    const osg::ref_ptr<osg::CoordinateSystemNode> mars = new osg::CoordinateSystemNode;
-    mars->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
-    const osg::ref_ptr<osg::PagedLOD> marsTile = makePagedTile("children.osgb");
-    mars->addChild(marsTile);
-    _paged->setDatabaseOptions(users);
-    marsTile->setDatabaseOptions(users);
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->addChild(_root);
-    scene->addChild(mars);
-    installBins(*scene);
-    CullOptions exact;
-    exact.method = Method::Exact;
-    installBins(*mars, exact);
-
-    const osg::ref_ptr<osg::Node> here = readChildren();
-    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*marsTile));
-    ASSERT_NE(firstCallback(here), nullptr);
-    ASSERT_NE(firstCallback(there), nullptr);
-    EXPECT_NE(firstCallback(here)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(firstCallback(there)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(firstCallback(here)->getCullOptions().method, Method::Quadratic);
-    EXPECT_EQ(firstCallback(there)->getCullOptions().method, Method::Exact);
-    EXPECT_EQ(reader->count, 2);
-    EXPECT_EQ(optionsOf(*marsTile)->getOptionString(), "shared=by both");
 }
 
 TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
@@ -178,8 +115,8 @@ TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
     moved->addChild(tile);
     _root->addChild(moved);
     // the same file, in two places
-    _paged->setDatabasePath(_folder.string());
-    tile->setDatabasePath(_folder.string());
+    _paged->setDatabasePath(_folder.path());
+    tile->setDatabasePath(_folder.path());
     ASSERT_EQ(_paged->getDatabasePath() + _paged->getFileName(1), file("children.osgb"));
     installBins(*_root);
     const osg::ref_ptr<osg::Node> here = readChildren();
@@ -197,7 +134,7 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
     tile->setDatabasePath("http://server/there");
     moved->addChild(tile);
     _root->addChild(moved);
-    const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache((_folder / "cache").string());
+    const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache(_folder / "cache");
     const std::string copy = cache->createCacheFileName(tile->getDatabasePath() + "children.osgb");
     fs::create_directories(fs::path(copy).parent_path());
     fs::copy(file("children.osgb"), copy);

@@ -186,24 +186,6 @@ TEST(PlanarDatabase, MeshesAreCulledWellAndNeverWhenSeen) {
     expectFewerThanWithSpheres(tally);
 }
 
-TEST(PlanarDatabase, ShownInAnotherShapeNothingIsCulledUntilItIsFitted) {
-    const test::TemporaryFolder folder;
-    const PlanarMap map;
-    const auto root = map.build(folder.path());
-    installBins(*root, optionsOf("heights=0..2600"));
-    test::PagedFlight flight(*root);
-    const osg::Vec3d eye = map.origin + osg::Vec3d(-1000, 0, 5000);
-    const CullView away = CullView::lookAt(eye, eye - osg::Vec3d(1000, 0, 0), osg::Vec3d(0, 0, 1), 40.0);
-    CullView all = away;
-    all.cullingMode = osg::CullSettings::NO_CULLING;
-    ASSERT_TRUE(flight.load(all));
-    EXPECT_TRUE(reached(*root, away).empty());
-    dynamic_cast<osgTerrain::Terrain&>(*root).setVerticalScale(3.0f);
-    EXPECT_FALSE(reached(*root, away).empty());
-    flight.frames(all, 2);
-    EXPECT_TRUE(reached(*root, away).empty());
-}
-
 TEST(PlanarDatabase, FollowsTheVerticalScale) {
     PlanarMap map;
     map.verticalScale = 3.0;

@@ -166,31 +166,5 @@ TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
     EXPECT_GT(totals.seen, 8u);
 }
 
-TEST(ShadowPasses, OtherTechniquesKeepWhatTheirCamerasSee) {
-    CameraGlobe globe(test::horizonOptions(), shadowTiles());
-    test::Random random(121);
-    for (const bool perspective : {false, true}) {
-        LookTotals totals;
-        std::size_t behind = 0;
-        for (int i = 0; i < 6; ++i) {
-            const Evening evening(random);
-            osg::ref_ptr<osgShadow::ShadowTechnique> technique = new osgShadow::ShadowMap;
-            if (perspective) technique = new osgShadow::LightSpacePerspectiveShadowMapVB;
-            CullView view = evening.view;
-            view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-            const osg::ref_ptr<osgShadow::ShadowedScene> scene = shadowedScene(globe, technique.get(), evening.toLight);
-            const std::vector<Look> looks = looksAt(*scene, view, globe);
-            ASSERT_GE(looks.size(), 2u);
-            for (std::size_t k = 1; k < looks.size(); ++k) {
-                EXPECT_TRUE(totals.add(globe, looks[k]).empty()) << "view " << i << ", look " << k;
-                for (const std::size_t tile : looks[k].reached) {
-                    if (!looks[0].reached.count(tile)) ++behind;
-                }
-            }
-        }
-        EXPECT_GT(behind, 10u);
-    }
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin

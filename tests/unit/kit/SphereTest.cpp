@@ -1,21 +1,25 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// OSG's own spheres on tiles and on groups above them, which bins leave in use.
+// OSG's own spheres on tiles and on groups above them, which bins leave in use, and which occluders are compared with.
 
 #include "ApplicationGlobe.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
+#include <osg/ConvexPlanarOccluder>
 #include <osg/Geode>
 #include <osg/Group>
 #include <osg/LOD>
+#include <osg/OccluderNode>
 #include <osg/PagedLOD>
 #include <osgUtil/IntersectionVisitor>
 #include <osgUtil/LineSegmentIntersector>
 
+#include <set>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 
@@ -237,6 +241,93 @@ TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
         EXPECT_GT(drawnIn(true, view), 0u);
     }
     EXPECT_GT(notes.count("the root file holds content that cannot be compared"), 0u);
+}
+
+// A tile in ECEF, about which OSG has a larger sphere than the one about its bin.
+osg::ref_ptr<osg::PagedLOD> tileInEcef() {
+    const osg::ref_ptr<osg::MatrixTransform> frame = makeMeshTile(extentsDeg(35, 36, 45, 46), 0.0);
+    const osg::ref_ptr<osg::Node> mesh = frame->getChild(0);
+    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    for (osg::Vec3& vertex : vertices) vertex = osg::Vec3d(vertex) * frame->getMatrix();
+    osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "no.osgb", 1.0f);
+    setStoredBin(*tile, tileSurface(*mesh, osg::EllipsoidModel(), osg::Matrixd()).bin);
+    return tile;
+}
+
+TEST(Spheres, LoseNoTileThatIsSmallerThanTheyAre) {
+    for (const bool isFamily : {true, false}) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> stock = new osg::CoordinateSystemNode,
+                                                      withBins = new osg::CoordinateSystemNode;
+        for (const auto& root : {stock, withBins}) {
+            root->setEllipsoidModel(new osg::EllipsoidModel);
+            root->addChild(tileInEcef());
+        }
+        ASSERT_EQ(installBins(*withBins), 1u);
+        if (!isFamily) withBins->addCullCallback(new osg::NodeCallback);
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        std::size_t drawn = 0;
+        for (double distance = 5e6; distance < 2e8; distance *= 1.01) {
+            CullView view = CullView::lookAt(ecefDeg(35.5, 45.5, distance), ecefDeg(35.5, 45.5, 0), {0, 0, 1}, 60.0);
+            view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+            const std::size_t all = cull(*stock, view, *visitor).drawn.size();
+            EXPECT_GE(cull(*withBins, view, *visitor).drawn.size(), all) << distance << isFamily;
+            drawn += all;
+        }
+        EXPECT_GT(drawn, 20u);
+        EXPECT_LT(drawn, 350u);
+    }
+}
+
+constexpr double kAltitude = 5e6;
+
+// A wall of this size, seen from a place above the globe: half of the picture's height is 0.7.
+osg::ref_ptr<osg::Node> makeWall(const CullView& view, double halfSize, double aside) {
+    constexpr double kDistance = 0.2 * kAltitude;
+    const osg::Matrixd toWorld = osg::Matrixd::inverse(view.modelView);
+    const osg::ref_ptr<osg::ConvexPlanarOccluder> occluder = new osg::ConvexPlanarOccluder;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        const osg::Vec3d corner(aside + x * halfSize, y * halfSize, -1.0);
+        occluder->getOccluder().add(osg::Vec3(corner * kDistance * toWorld));
+    }
+    osg::ref_ptr<osg::OccluderNode> wall = new osg::OccluderNode;
+    wall->setOccluder(occluder);
+    wall->setCullingActive(false);
+    return wall;
+}
+
+// The numbers of the globe's tiles that are drawn behind a wall.
+std::set<std::size_t> drawnBehind(osg::Node& wall, MeshGlobe& globe, const CullView& view) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(&wall);
+    scene->addChild(globe.root);
+    const auto drawn = cull(*scene, view, *globe.visitor, ++globe.frame).drawn;
+    std::set<std::size_t> numbers;
+    for (std::size_t i = 0; i < globe.tiles.size(); ++i)
+        if (drawn.count(drawableOf(*globe.tiles[i]))) numbers.insert(i);
+    return numbers;
+}
+
+TEST(Occluders, LeaveTilesToOsgsSpheres) {
+    MeshGlobe plain, installed;
+    installBins(*installed.root);
+    std::size_t hidden = 0, culled = 0;
+    for (const double longitude : {0.0, 100.0, 200.0}) {
+        CullView view = CullView::lookAt(ecefDeg(10.0, longitude, kAltitude), {0, 0, 0}, {0, 0, 1}, 70.0);
+        // OSG drops occluders whose shadow is a small part of the frustum
+        view.projection = osg::Matrixd::perspective(70.0, 1.0, 0.05 * kAltitude, 2e7);
+        for (const auto& [halfSize, aside] : {std::pair(0.2, 0.0), {0.5, 0.3}, {0.6, -0.1}}) {
+            const osg::ref_ptr<osg::Node> wall = makeWall(view, halfSize, aside);
+            view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+            const std::set<std::size_t> drawn = drawnBehind(*wall, installed, view);
+            EXPECT_EQ(drawn, drawnBehind(*wall, plain, view)) << longitude << ' ' << halfSize;
+            view.cullingMode &= ~osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+            const std::size_t inView = drawnBehind(*wall, plain, view).size();
+            hidden += inView - drawn.size();
+            culled += inView - drawnBehind(*wall, installed, view).size();
+        }
+    }
+    EXPECT_GT(hidden, 10u);
+    EXPECT_GT(culled, 10u) << "bins, in views without occluders";
 }
 
 }  // namespace

@@ -6,23 +6,21 @@
 // elsewhere are in FalseBinTest.cpp; the tiles that this was found with in applications/osgbinglobe.
 
 #include "DatabaseFixture.h"
+#include "TileFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 
-#include <array>
 #include <support/CapturedNotes.h>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 const std::string kTooSmall = "larger than the bin stored with it or above it";
-constexpr int kCoarsePosts = 3;
+constexpr unsigned int kCoarsePosts = 3;
 constexpr double kMarginAngle = 0.01 / 6.4e6;  // metres, as an angle
 
 struct CoarseTile {
@@ -31,46 +29,14 @@ struct CoarseTile {
 };
 
 CoarseTile makeCoarseTile(const core::GeodeticBin& extents) {
-    std::array<osg::Vec3d, kCoarsePosts * kCoarsePosts> posts;
-    const core::Ellipsoid wgs84(6378137.0, 6356752.314245);
-    for (int j = 0; j < kCoarsePosts; ++j) {
-        for (int i = 0; i < kCoarsePosts; ++i) {
-            const double v = j / (kCoarsePosts - 1.0);
-            const double u = i / (kCoarsePosts - 1.0);
-            const glm::dvec3 ecef = wgs84.toEcef({extents.latitude().lower + v * extents.latitude().width(),
-                                                  extents.longitude().lower + u * extents.longitude().width(), 0.0});
-            posts[static_cast<std::size_t>(j * kCoarsePosts + i)] = {ecef.x, ecef.y, ecef.z};
-        }
+    const osg::ref_ptr<osg::Node> mesh = makeMeshTile(extents, 0.0, kCoarsePosts);
+    core::GeodeticMeshBounds bounds(core::Ellipsoid(6378137.0, 6356752.314245), extents.center().longitude);
+    for (const EcefTriangle& triangle : drawnTriangles(*mesh).surface) {
+        for (const glm::dvec3& corner : triangle) bounds.expandByVertex(corner);
+        bounds.expandByTriangle(triangle[0], triangle[1], triangle[2]);
     }
-    const osg::Vec3d center = posts[posts.size() / 2];
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    core::GeodeticMeshBounds bounds(wgs84, extents.center().longitude);
-    std::array<glm::dvec3, kCoarsePosts * kCoarsePosts> drawn;
-    for (std::size_t i = 0; i < posts.size(); ++i) {
-        vertices->push_back(osg::Vec3(posts[i] - center));
-        const osg::Vec3d point = osg::Vec3d(vertices->back()) + center;
-        drawn[i] = {point.x(), point.y(), point.z()};
-        bounds.expandByVertex(drawn[i]);
-    }
-    const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-    for (unsigned int j = 0; j + 1 < kCoarsePosts; ++j) {
-        for (unsigned int i = 0; i + 1 < kCoarsePosts; ++i) {
-            const unsigned int a = j * kCoarsePosts + i;
-            for (const std::array<unsigned int, 3>& corners :
-                 {std::array{a, a + 1U, a + kCoarsePosts + 1U},
-                  std::array{a, a + kCoarsePosts + 1U, a + kCoarsePosts}}) {
-                bounds.expandByTriangle(drawn[corners[0]], drawn[corners[1]], drawn[corners[2]]);
-                for (const unsigned int corner : corners) triangles->push_back(static_cast<GLushort>(corner));
-            }
-        }
-    }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(triangles);
-    const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrix::translate(center));
-    placed->addChild(geometry);
     CoarseTile tile{new osg::Group, bounds.bin()};
-    tile.node->addChild(placed);
+    tile.node->addChild(mesh);
     return tile;
 }
 

@@ -194,13 +194,6 @@ TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
     EXPECT_EQ(notes.count("is not as the index knows it"), 1U);
 }
 
-TEST_F(BoxSets, AreCulledWithoutABrokenIndex) {
-    (void)_folder.write("metadata.xml.bins", "\x89osgBins");
-    const CapturedNotes notes;
-    EXPECT_TRUE(read("index=on"));
-    EXPECT_EQ(notes.count("make it again with osgbinconv --index"), 1U);
-}
-
 TEST_F(BoxSets, GetAnIndexInTheBackgroundWhichIsUsedAtOnceTheNextTime) {
     osg::ref_ptr<osg::Node> scene = read();
     // an index that is being made goes on
@@ -238,16 +231,6 @@ TEST_F(BoxSets, GetANewIndexWhenAFileChangesIsAddedOrIsRemoved) {
                _folder / "Data/Tile_+009_+009/Tile_+009_+009.osgb");
     EXPECT_TRUE(isMadeAnew());
     EXPECT_FALSE(isMadeAnew());
-}
-
-TEST_F(BoxSets, KeepTheirIndexWhereSomethingElseHasTheNameOfOneBesideThem) {
-    (void)_folder.write("metadata.xml.bins", "of another program");
-    osg::ref_ptr<osg::Node> scene = read();
-    ASSERT_TRUE(waitForIndex(*scene, kSeconds));
-    EXPECT_EQ(test::textOfFile(binIndexName(_metadata)), "of another program");
-    EXPECT_FALSE(fs::is_empty(_cache.path()));
-    scene = read();
-    EXPECT_FALSE(isIndexAwaited(*scene));
 }
 
 TEST_F(BoxSets, GiveLoadedTilesTheBoxesOfTheIndexThatIsMade) {
@@ -313,16 +296,6 @@ std::string flagsOf(osg::Node& node) {
     return flags.text.str();
 }
 
-TEST_F(BoxSets, AreAsBeforeWhenBoxesAreTakenOff) {
-    makeIndex();
-    const osg::ref_ptr<osg::Node> scene = read("method=sphere");
-    const std::string before = flagsOf(*scene);
-    EXPECT_GT(installBins(*scene, {}), 0U);
-    EXPECT_NE(flagsOf(*scene), before);
-    removeBins(*scene);
-    EXPECT_EQ(flagsOf(*scene), before);
-}
-
 TEST_F(BoxSets, FollowOtherOptions) {
     makeIndex();
     Flown boxes(read());
@@ -334,22 +307,6 @@ TEST_F(BoxSets, FollowOtherOptions) {
     EXPECT_GT(boxes.keys(view).size(), culled);
     setCullOptions(*boxes.scene, {});
     EXPECT_EQ(boxes.keys(view).size(), culled);
-}
-
-TEST_F(BoxSets, KeepBrokenFilesApart) {
-    makeIndex();
-    for (const auto& entry : fs::recursive_directory_iterator(_folder / "Data")) {
-        const std::string name = entry.path().filename().string();
-        if (name.find("_L3_") != std::string::npos) fs::resize_file(entry.path(), 300);
-    }
-    Flown boxes(read());
-    const CapturedNotes notes;
-    const CullView view = views(1).front();
-    boxes.flight.frames(view, 30);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    EXPECT_FALSE(test::cull(*boxes.scene, view, *visitor).drawn.empty());
-    // each file is tried once in this second, not in every frame
-    EXPECT_LE(notes.count("could not be read"), 36U);
 }
 
 // A mast that stands out of the tile's box, though not of its sphere, below a view that looks over the box.
