@@ -18,6 +18,7 @@
 
 #include <cmath>
 #include <support/Random.h>
+#include <vector>
 
 namespace osgAnalyticBin {
 namespace {
@@ -99,6 +100,37 @@ TEST(AnalyticBinCullCallback, CullsATileInALocalFrameLikeOneInEcef) {
         const CullView view = randomGlobeView(random);
         EXPECT_EQ(local.reached(*local.root, view), globe.reached(*globe.root, view)) << "view " << i;
     }
+}
+
+TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphAlone) {
+    struct MaskReader : osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+            mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
+            traverse(node, nv);
+        }
+        unsigned int mask = 99;
+    };
+    std::set<std::string> visited;
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    const AnalyticBin inside(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
+    const AnalyticBin across(GeodeticBin::fromDegrees({-1, 1}, {-20, 20}, {0, 100}));
+    const osg::ref_ptr<osg::Group> tiles[] = {test::makeTile("inside", inside, visited),
+                                              test::makeTile("across", across, visited), new osg::Group};
+    std::vector<osg::ref_ptr<MaskReader>> readers;
+    for (const auto& tile : tiles) {
+        const osg::ref_ptr<osg::Group> child = new osg::Group;
+        readers.push_back(new MaskReader);
+        child->setCullCallback(readers.back());
+        child->setCullingActive(false);
+        tile->setCullingActive(false);
+        tile->addChild(child);
+        root->addChild(tile);
+    }
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    test::cull(*root, lookDown(1e6), *visitor);
+    EXPECT_EQ(readers[0]->mask, 0u);
+    EXPECT_EQ(readers[1]->mask, 3u) << "left and right";
+    EXPECT_EQ(readers[2]->mask, 15u) << "what follows is untouched";
 }
 
 TEST(AnalyticBinCullCallback, DoubtIsVisible) {

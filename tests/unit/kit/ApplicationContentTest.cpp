@@ -41,42 +41,6 @@ TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
     EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5)));
 }
 
-TEST(AddedContent, IsATileThatIsATransformAndMoves) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform;
-    tile->addChild(makeMeshTile(extentsDeg(10, 20, 10, 20), 1000.0));
-    setStoredBin(*tile, AnalyticBin(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-60000, 2000})));
-    globe.root->addChild(tile);
-    installBins(*globe.root);
-    ASSERT_NE(installedOn(*tile), nullptr);
-    EXPECT_TRUE(globe.draws(*tile, downTo(15, 15)));
-    EXPECT_FALSE(globe.draws(*tile, downTo(15, 135)));
-    tile->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1)));
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*tile, downTo(15, 135))) << i;
-        update(*globe.root);
-    }
-}
-
-TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
-    FiledGlobe globe;
-    osg::Group* const leaf = globe.group->getChild(0)->asGroup();
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Node> tower =
-        makeTower(place * osg::Matrixd::inverse(leaf->getChild(0)->getWorldMatrices()[0]));
-    const CullView view = beside(place);
-    EXPECT_FALSE(globe.draws(*leaf, view));
-    leaf->getChild(0)->asGroup()->addChild(tower);
-    EXPECT_TRUE(globe.draws(*tower, view));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*tower, view));
-    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 30000.0);
-    EXPECT_LE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 31000.0);
-    // the tiles are culled by what they hold now
-    EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
-    EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
-}
-
 // 20 km above the middle of a tile, in the frame of its mesh.
 struct AboveTheMesh {
     explicit AboveTheMesh(MeshGlobe& globe)
@@ -189,26 +153,6 @@ TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove)
     }
 }
 
-TEST(AddedContent, ThatCameWithAFileIsDrawn) {
-    FiledGlobe globe;
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    file->addChild(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0));
-    const osg::ref_ptr<osg::MatrixTransform> written = makeTower(place);
-    written->setDataVariance(osg::Object::DYNAMIC);
-    file->addChild(written);
-    ASSERT_TRUE(osgDB::writeNodeFile(*file, globe.folder / "group.osgb"));
-    pageOut(*globe.tile);
-    const osg::ref_ptr<osg::Node> content = readBelow(*globe.tile);
-    // as the pager does before it merges a file
-    (void)content->getBound();
-    putBelow(*globe.tile, content);
-    osg::Node& tower = *content->asGroup()->getChild(1);
-    EXPECT_TRUE(globe.draws(tower, beside(place)));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(tower, beside(place)));
-}
-
 TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
     FiledGlobe globe;
     const osg::ref_ptr<osg::MatrixTransform> vehicle = makeTower(ecefDeg(20, 20, 100.0));
@@ -267,6 +211,19 @@ TEST_P(NeverCulled, IsALightSource) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
+
+TEST(Clones, ThatShareCallbacksStayVisible) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    // OSG tells nothing of what is drawn: bins alone do
+    for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
+    const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
+    const auto drawnOf = [&](osg::Node& scene) {
+        return cull(scene, downTo(22.5, -22.5), *globe.visitor, ++globe.frame).drawn.size();
+    };
+    EXPECT_LT(drawnOf(*globe.root), 8u);
+    EXPECT_EQ(drawnOf(*clone), 32u);
+}
 
 // An application's callback in front of the bin's: the clones of its node share both.
 TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {

@@ -85,7 +85,7 @@ protected:
     const CullView _view = CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
 };
 
-constexpr int kFrames = 200;
+constexpr int kFrames = 100;
 
 TEST_F(MissingTiles, AreNotLookedForInEveryFrameAndAppearWhenTheyAreThere) {
     installBins(*_scene);

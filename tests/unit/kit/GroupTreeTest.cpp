@@ -190,7 +190,7 @@ private:
 
 TEST_F(InstalledTiles, AreNotBelievedWhileTheyAreDoubtedWhateverElseIsSettled) {
     int believed = 0;
-    for (int i = 0; i < 50000; ++i) {
+    for (int i = 0; i < 20000; ++i) {
         tile->doubt(InstalledTile::Outgrown);
         for (int look = 0; look < 8; ++look) believed += isBelieved() ? 1 : 0;
         tile->settle(InstalledTile::Outgrown);
@@ -199,7 +199,7 @@ TEST_F(InstalledTiles, AreNotBelievedWhileTheyAreDoubtedWhateverElseIsSettled) {
 }
 
 TEST_F(InstalledTiles, AreDoubtedWhileTheirFamiliesAreMadeAnew) {
-    for (int i = 0; i < 50000; ++i) join();
+    for (int i = 0; i < 20000; ++i) join();
 }
 
 }  // namespace

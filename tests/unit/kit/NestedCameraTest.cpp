@@ -186,36 +186,6 @@ TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
     }
 }
 
-TEST(NestedCameras, CamerasWithinCamerasAndTransforms) {
-    CameraGlobe globe(test::horizonOptions());
-    test::Random random(81);
-    LookTotals totals;
-    for (int i = 0; i < 30; ++i) {
-        const osg::ref_ptr<Camera> inner = test::makeCamera("inner", globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER,
-                                                            randomViewMatrix(random, 1e5), randomProjection(random));
-        const osg::ref_ptr<Camera> relative =
-            test::makeCamera("relative", globe, Transform::RELATIVE_RF, Camera::NESTED_RENDER,
-                             osg::Matrixd::rotate(0.2, osgVector(random.direction())), osg::Matrixd());
-        const osg::ref_ptr<Camera> outer = test::makeCamera("outer", globe, Transform::ABSOLUTE_RF, Camera::POST_RENDER,
-                                                            randomViewMatrix(random, 1e5), randomProjection(random));
-        const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(
-            osg::Matrixd::rotate(random.uniform(0, 6), osgVector(random.direction())) *
-            osg::Matrixd::scale(0.5, i % 3 ? 0.5 : -0.5, 0.5) * osg::Matrixd::translate(1e5, -2e5, 3e5));
-        mover->setCullingActive(false);
-        mover->addChild(relative);
-        outer->addChild(mover);
-        outer->addChild(inner);
-        const std::vector<Look> looks = looksAt(*outer, randomCullView(random), globe);
-        ASSERT_EQ(looks.size(), 3u);
-        EXPECT_EQ(looks[1].camera, "relative");
-        for (const Look& look : looks) {
-            EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty())
-                << "scene " << i << ", " << look.camera;
-        }
-    }
-    EXPECT_LT(totals.reached, totals.tiles / 3);
-}
-
 // What is behind the horizon of a light may still be what a shadow map needs: its back faces are drawn.
 TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
     CameraGlobe globe(test::horizonOptions());

@@ -140,9 +140,9 @@ TEST(ShownDepth, HidesNothingThatIsSeen) {
             DeepTerrain terrain;
             terrain.deepShare = deepShare;
             terrain.airShare = airShare;
-            const DepthTally tally = fly(terrain, 2100, 40);
-            EXPECT_GT(tally.eyes, 200);
-            EXPECT_GT(tally.entered, 3000);
+            const DepthTally tally = fly(terrain, 2100, 20);
+            EXPECT_GT(tally.eyes, 100);
+            EXPECT_GT(tally.entered, 1500);
         }
     }
 }

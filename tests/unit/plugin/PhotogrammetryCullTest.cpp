@@ -166,21 +166,6 @@ TEST_F(BoxSets, AskForNoMoreFilesThanSpheres) {
     }
 }
 
-TEST_F(BoxSets, TolerateMissingChildren) {
-    fs::remove(_folder / test::kFileWithFalseSphere);
-    makeIndex();
-    Flown boxes(read());
-    const CullView view = views(1).front();
-    CullView down = view;
-    const osg::Vec3d middle = setIn(*boxes.scene)->getMatrix().getTrans();
-    const osg::Vec3d up = middle / middle.length();
-    down.modelView = osg::Matrixd::lookAt(middle + up * 700.0, middle, osg::Vec3d(0, 0, 1));
-    boxes.flight.frames(down, 40);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    // each place is drawn once, at some level: the parent where the child is missing
-    EXPECT_GE(test::cull(*boxes.scene, down, *visitor).drawn.size(), 9U);
-}
-
 TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
     test::PhotogrammetrySample low;
     low.towersFrom = 100;  // none
