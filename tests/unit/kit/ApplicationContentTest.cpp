@@ -41,6 +41,23 @@ TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
     EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5)));
 }
 
+TEST(AddedContent, IsATileThatIsATransformAndMoves) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform;
+    tile->addChild(makeMeshTile(extentsDeg(10, 20, 10, 20), 1000.0));
+    setStoredBin(*tile, AnalyticBin(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-60000, 2000})));
+    globe.root->addChild(tile);
+    installBins(*globe.root);
+    ASSERT_NE(installedOn(*tile), nullptr);
+    EXPECT_TRUE(globe.draws(*tile, downTo(15, 15)));
+    EXPECT_FALSE(globe.draws(*tile, downTo(15, 135)));
+    tile->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1)));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(*tile, downTo(15, 135))) << i;
+        update(*globe.root);
+    }
+}
+
 // 20 km above the middle of a tile, in the frame of its mesh.
 struct AboveTheMesh {
     explicit AboveTheMesh(MeshGlobe& globe)

@@ -105,13 +105,6 @@ TEST_F(MissingTiles, AreNotLookedForInEveryFrameAndAppearWhenTheyAreThere) {
     EXPECT_EQ(flight.drawn(), unhurt.drawn());
 }
 
-TEST_F(MissingTiles, AreLookedForInEveryFrameByOsgItself) {
-    PagedFlight flight(*_scene);
-    _scene->setUpdateCallback(nullptr);  // no bins
-    flight.frames(_view, kFrames);
-    EXPECT_GT(_attempts->most(), 20);
-}
-
 // What keeps a viewer awake that draws on demand: osgViewer::Scene::requiresUpdateSceneGraph().
 bool needsFrames(const osg::Node& scene) {
     return scene.getUpdateCallback() || scene.getNumChildrenRequiringUpdateTraversal() > 0;

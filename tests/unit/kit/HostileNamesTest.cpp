@@ -20,6 +20,7 @@
 #include <string>
 #include <support/CapturedNotes.h>
 #include <support/TemporaryFolder.h>
+#include <utility>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -95,19 +96,14 @@ TEST_F(HostileNames, AreNotReadUntilThePagerAsks) {
     EXPECT_EQ(_notes.count(""), 0u);
 }
 
-TEST_F(HostileNames, OfTheFileItselfAreFollowedAsFarAsThePagerGoes) {
-    for (const bool isGlobe : {true, false}) {
-        write("root.osgb", isGlobe ? "root.osgb" : "tile.osgb", true);
-        write("tile.osgb", "tile.osgb", false);
+TEST_F(HostileNames, OfFilesThatNameThemselvesOrEachOtherAreFollowedAsFarAsThePagerGoes) {
+    for (const auto& [root, tile] :
+         {std::pair("root.osgb", "tile.osgb"), {"tile.osgb", "tile.osgb"}, {"tile.osgb", "other.osgb"}}) {
+        write("root.osgb", root, true);
+        write("tile.osgb", tile, false);
+        write("other.osgb", "tile.osgb", false);
         expectFollowedAsFarAsThePagerGoes();
     }
-}
-
-TEST_F(HostileNames, OfFilesThatNameEachOtherAreFollowedLikewise) {
-    write("root.osgb", "a.osgb", true);
-    write("a.osgb", "b.osgb", false);
-    write("b.osgb", "a.osgb", false);
-    expectFollowedAsFarAsThePagerGoes();
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Cameras in the scene: drawn before, after and within the picture, in all frames of reference, with settings of their
-// own. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each camera, which are
-// also compared with what the frame of reference asks for. Shadow techniques themselves: ShadowPassTest.cpp.
+// own. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each camera. Shadow
+// techniques themselves: ShadowPassTest.cpp.
 
 #include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
@@ -67,11 +67,6 @@ std::vector<Look> looksAt(osg::Node& scene, const CullView& view, CameraGlobe& g
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(scene, view, *visitor);
     return globe.takeLooks();
-}
-
-bool areAlike(const osg::Matrixd& a, const osg::Matrixd& b) {
-    return std::equal(a.ptr(), a.ptr() + 16, b.ptr(),
-                      [](double x, double y) { return std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y)) + 1e-9; });
 }
 
 // A window that is never opened.
@@ -170,15 +165,6 @@ TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
             for (std::size_t k = 0; k < looks.size(); ++k) {
                 EXPECT_TRUE(totals.add(globe, looks[k], NearPlane::AtMinusOne, depth).empty())
                     << "scene " << i << ", look " << k;
-            }
-            // what was projected with is what the cameras say
-            EXPECT_TRUE(areAlike(looks[0].modelView, view.modelView));
-            for (unsigned int k = 1; k < 10; ++k) {
-                const Camera& camera = *scene->getChild(k)->asCamera();
-                const bool post = camera.getTransformOrder() == Camera::POST_MULTIPLY;
-                osg::Matrixd expected = camera.getViewMatrix();
-                if (k <= 3) expected = post ? view.modelView * expected : expected * view.modelView;
-                EXPECT_TRUE(areAlike(looks[k].modelView, expected)) << k;
             }
         }
         EXPECT_LT(totals.reached, totals.tiles / 3);

@@ -6,7 +6,6 @@
 
 #include "DatabaseFixture.h"
 #include "InstallerProbe.h"
-#include "PagedFlight.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
@@ -18,9 +17,7 @@
 #include <osgDB/WriteFile>
 
 #include <cstdlib>
-#include <set>
 #include <string>
-#include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <thread>
 #include <utility>
@@ -28,9 +25,6 @@
 
 namespace osgAnalyticBin {
 namespace {
-
-using test::CullView;
-using test::PagedFlight;
 
 const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 constexpr int kThreads = 8;
@@ -101,7 +95,7 @@ TEST_F(ObjectCache, ThreadsThatReadOneFileGetTilesThatWereTreatedOnce) {
         _reader = new test::ProbingReader;
         readInThreads(*pagingOptions(hint));
         expectOneVisitEach();
-        EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads)) << "it is asked each time";
+        EXPECT_EQ(_reader->total(), kThreads * kReads) << "it is asked each time";
     }
 }
 
@@ -263,36 +257,6 @@ TEST_F(ObjectCache, ANodeThatIsInASceneWithoutBinsIsLeftAlone) {
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_NONE));
     EXPECT_EQ(node, scene->getChild(0));
     EXPECT_TRUE(_reader->visits.threads().empty());
-}
-
-TEST_F(ObjectCache, ThePagerBringsTilesBackFromTheCache) {
-    const std::string file = test::writeSyntheticDatabase(_folder.path());
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-    options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
-    osgDB::Registry::instance()->setOptions(options);
-    osgDB::Registry::instance()->setReadFileCallback(_reader);
-    CullOptions forgetful;
-    forgetful.expiry = 0.0;
-    installBins(*scene, forgetful);
-    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-    const CullView east = CullView::lookAt(eye, eye + osg::Vec3d(-1, +1, 0), osg::Vec3d(1, 0, 0), 40.0);
-    const CullView west = CullView::lookAt(eye, eye + osg::Vec3d(-1, -1, 0), osg::Vec3d(1, 0, 0), 40.0);
-    {
-        PagedFlight flight(*scene, 10);
-        EXPECT_TRUE(flight.load(east));
-        const std::multiset<std::string> drawn = flight.drawn();
-        EXPECT_TRUE(flight.load(west));
-        flight.frames(west, 30);
-        flight.frame(east);
-        EXPECT_FALSE(flight.wanted().empty());  // tiles have expired
-        EXPECT_TRUE(flight.load(east));
-        EXPECT_EQ(flight.drawn(), drawn);
-    }
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    osgDB::Registry::instance()->setOptions(nullptr);
-    EXPECT_GT(_reader->visits.threads().size(), 2u);
-    expectOneVisitEach();
 }
 
 }  // namespace

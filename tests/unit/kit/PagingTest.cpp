@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD.
+// Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD. How long the pager
+// keeps those out of view: its own rule, and CullOptions::expiry; time is simulated.
 
 #include "CountedReads.h"
 #include "DatabaseFixture.h"
@@ -159,8 +160,8 @@ TEST(PagedFlight, BinsAreInstalledInThePagersThreadAlone) {
     }
     osgDB::Registry::instance()->setReadFileCallback(nullptr);
     ASSERT_TRUE(loaded);
-    EXPECT_GT(reader->files.size(), 4u);
-    EXPECT_EQ(reader->visits.threads().size(), reader->files.size());
+    EXPECT_GT(reader->total(), 4);
+    EXPECT_EQ(reader->visits.threads().size(), static_cast<std::size_t>(reader->total()));
     for (const auto& [file, threads] : reader->visits.threads()) {
         ASSERT_EQ(threads.size(), 1u);
         EXPECT_NE(threads.front(), std::this_thread::get_id());
@@ -202,6 +203,110 @@ TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
     _paged->setDatabaseOptions(users.get());
     installBins(*_root);
     EXPECT_FALSE(readChildren());
+}
+
+using test::CullView;
+using test::PagedFlight;
+
+osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> files) {
+    osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
+    node->addChild(new osg::Group, 1e6f, 1e10f);
+    unsigned int child = 1;
+    for (const char* file : files) node->setFileName(child++, file);
+    setStoredBin(*node, AnalyticBin(core::GeodeticBin::fromDegrees({0, 10}, {0, 10}, {0, 100})));
+    return node;
+}
+
+CullOptions withExpiry(double seconds, Method method = Method::Quadratic) {
+    CullOptions options;
+    options.expiry = seconds;
+    options.method = method;
+    return options;
+}
+
+TEST(PagingExpiry, IsRaisedOnPagedChildrenFromWhatWasThereAtFirst) {
+    const auto node = makePagedLod({"finer.osgb", "finest.osgb"});
+    node->setMinimumExpiryTime(2, 1.0);
+    for (const double seconds : {3.0, 8.0, 1.0, 0.5, 0.0}) {
+        installBins(*node, withExpiry(seconds));
+        EXPECT_EQ(node->getMinimumExpiryTime(0), 0.0);  // not paged
+        EXPECT_EQ(node->getMinimumExpiryTime(1), seconds);
+        EXPECT_EQ(node->getMinimumExpiryTime(2), std::max(seconds, 1.0));
+    }
+    for (const Method method : {Method::Sphere, Method::None}) {
+        installBins(*node);
+        EXPECT_EQ(node->getMinimumExpiryTime(1), 3.0) << "by default";
+        installBins(*node, withExpiry(3.0, method));
+        EXPECT_EQ(node->getMinimumExpiryTime(1), 0.0) << "OSG's rule";
+        EXPECT_EQ(node->getMinimumExpiryTime(2), 1.0);
+        EXPECT_EQ(node->getUserDataContainer()->getNumUserObjects(), 1u) << "the stored bin";
+    }
+    installBins(*node);
+    node->setMinimumExpiryTime(1, 7.0);
+    installBins(*node, withExpiry(3.0, Method::Sphere));
+    EXPECT_EQ(node->getMinimumExpiryTime(1), 7.0) << "set by the user";
+}
+
+class TurningTheHead : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const std::string file = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(file.empty());
+        _scene = osgDB::readRefNodeFile(file);
+        ASSERT_TRUE(_scene);
+        osgDB::Registry::instance()->setReadFileCallback(_reads);
+    }
+    void TearDown() override { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
+
+    // 300 km above the equator, looking down at 45 degrees to the east or west.
+    static CullView look(double side) {
+        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+        return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
+    }
+
+    test::TemporaryFolder _folder;
+    osg::ref_ptr<osg::Node> _scene;
+    osg::ref_ptr<test::CountedReads> _reads = new test::CountedReads;
+};
+
+// Fewer than the scene has at first, so that the pager drops whatever it may.
+constexpr unsigned int kSmallTarget = 10;
+constexpr int kFramesOfNearlyTwoSeconds = 118;
+constexpr int kFramesOfFourSeconds = 240;
+
+TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
+    for (const CullOptions& options : {CullOptions(), withExpiry(0.0)}) {
+        osgDB::Registry::instance()->setReadFileCallback(_reads = new test::CountedReads);
+        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "globe.osgb");
+        installBins(*scene, options);
+        PagedFlight flight(*scene, kSmallTarget);
+        ASSERT_TRUE(flight.load(look(+1)));
+        const std::size_t files = _reads->counts().size();
+        ASSERT_GT(files, 2u);
+        flight.frames(look(-1), kFramesOfNearlyTwoSeconds);
+        EXPECT_GT(_reads->counts().size(), files);
+        ASSERT_TRUE(flight.load(look(+1)));
+        EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
+    }
+}
+
+TEST_F(TurningTheHead, AndNotBackLetsTilesExpire) {
+    installBins(*_scene);
+    PagedFlight flight(*_scene, kSmallTarget);
+    ASSERT_TRUE(flight.load(look(+1)));
+    ASSERT_TRUE(flight.load(look(-1)));
+    const std::size_t both = test::loadedTiles(*_scene);
+    flight.frames(look(-1), kFramesOfFourSeconds);
+    const std::size_t kept = test::loadedTiles(*_scene);
+    EXPECT_LT(kept, both);
+
+    // What is left is what this view needs by itself.
+    osg::ref_ptr<osg::Node> fresh = osgDB::readRefNodeFile(_folder / "globe.osgb");
+    installBins(*fresh);
+    PagedFlight alone(*fresh, kSmallTarget);
+    ASSERT_TRUE(alone.load(look(-1)));
+    EXPECT_EQ(kept, test::loadedTiles(*fresh));
+    EXPECT_EQ(flight.drawn(), alone.drawn());
 }
 
 }  // namespace

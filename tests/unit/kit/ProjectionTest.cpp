@@ -220,21 +220,6 @@ TEST(Projections, NearAndFarPlanesCullByThemselves) {
     EXPECT_EQ(none + both, near + far);
 }
 
-TEST(Projections, WithInfiniteFarTheFarPlaneDecidesNothing) {
-    CameraGlobe globe;
-    test::Random random(73);
-    for (int i = 0; i < kViews; ++i) {
-        CullView view;
-        view.modelView = randomViewMatrix(random);
-        view.projection = infiniteFar(0.5, 1.0);
-        const std::set<std::size_t> sides = lookOf(globe, view).reached;
-        view.cullingMode |= osg::CullSettings::FAR_PLANE_CULLING;
-        const std::set<std::size_t> withFar = lookOf(globe, view).reached;
-        EXPECT_TRUE(std::includes(withFar.begin(), withFar.end(), sides.begin(), sides.end()));
-        EXPECT_LE(withFar.size(), sides.size() + 4);
-    }
-}
-
 osg::Matrixd alongX(double eye) {
     return osg::Matrixd::lookAt(osg::Vec3d(eye, 0, 0), osg::Vec3d(eye + 1.0, 0, 0), osg::Vec3d(0, 0, 1));
 }

@@ -16,78 +16,18 @@
 #include <osg/LOD>
 #include <osg/OccluderNode>
 #include <osg/PagedLOD>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
 
-#include <set>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 namespace {
 
-// Tiles within tiles, each file with four.
-osg::ref_ptr<osg::Node> makeTree(double south, double west, double width, int levels) {
-    const auto mesh = makeMeshTile(extentsDeg(south, south + width, west, west + width), 0.0);
-    if (levels == 0) return mesh;
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, std::to_string(levels) + ".osgb", 1e9f);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    const double half = width / 2;
-    for (const double y : {south, south + half}) {
-        for (const double x : {west, west + half}) file->addChild(makeTree(y, x, half, levels - 1));
-    }
-    putBelow(*tile, file);
-    return tile;
-}
-
 osg::ref_ptr<osg::CoordinateSystemNode> globeWith(osg::Node* content) {
     osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
     globe->setEllipsoidModel(new osg::EllipsoidModel);
     globe->addChild(content);
     return globe;
-}
-
-struct CountingIntersector : osgUtil::LineSegmentIntersector {
-    using LineSegmentIntersector::LineSegmentIntersector;
-    bool enter(const osg::Node& node) override {
-        ++asked;
-        return LineSegmentIntersector::enter(node);
-    }
-    int asked = 0;
-};
-
-struct Pick {
-    int asked;
-    std::size_t hits;
-};
-
-Pick pickAt(osg::Node& scene, double latitude, double longitude) {
-    const osg::ref_ptr<CountingIntersector> ray =
-        new CountingIntersector(ecefDeg(latitude, longitude, 1e5), ecefDeg(latitude, longitude, -1e5));
-    osgUtil::IntersectionVisitor visitor(ray);
-    visitor.setTraversalMode(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
-    scene.accept(visitor);
-    return {ray->asked, ray->getIntersections().size()};
-}
-
-TEST(Spheres, GuideIntersectionsAsWithoutBins) {
-    const auto plain = globeWith(makeTree(10.0, 10.0, 16.0, 4));
-    for (const char* const method : {"quadratic", "none"}) {
-        const auto installed = globeWith(makeTree(10.0, 10.0, 16.0, 4));
-        std::string error;
-        installBins(*installed, *cullOptionsFromText(std::string("method=") + method, error));
-        update(*installed);
-        (void)installed->getBound();
-        Random random(42);
-        for (int i = 0; i < 50; ++i) {
-            const double latitude = random.uniform(10.0, 26.0), longitude = random.uniform(10.0, 26.0);
-            const Pick with = pickAt(*installed, latitude, longitude), without = pickAt(*plain, latitude, longitude);
-            EXPECT_GT(without.hits, 0u);
-            EXPECT_LT(without.asked, 60);
-            EXPECT_EQ(with.hits, without.hits) << method;
-            EXPECT_EQ(with.asked, without.asked) << method;
-        }
-    }
 }
 
 // Tiles below a tree of plain groups.

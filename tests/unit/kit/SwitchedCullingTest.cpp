@@ -9,9 +9,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
 #include <osg/Stats>
-#include <osg/ValueObject>
 #include <osgDB/ReadFile>
 #include <osgUtil/UpdateVisitor>
 
@@ -102,21 +100,6 @@ TEST_F(SwitchedCulling, DrawsWhatTheMethodDrawsAfreshAlsoWhatIsPagedInLater) {
         ASSERT_TRUE(flight.load(look(side)));
         EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(side))) << methodName(method) << ", tiles loaded later";
         side = -side;
-    }
-}
-
-TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
-    const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
-    PagedFlight flight(*scene);
-    constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Quadratic};
-    for (std::size_t i = 0; i < 24; ++i) {
-        setCullOptions(*scene, by(kMethods[i % kMethods.size()]));
-        flight.frames(look(i % 8 < 4 ? 1.0 : -1.0), 1);
-    }
-    setCullOptions(*scene, by(Method::Quadratic));
-    for (const double side : {1.0, -1.0}) {
-        ASSERT_TRUE(flight.load(look(side)));
-        EXPECT_EQ(flight.drawn(), drawnAfresh(Method::Quadratic, look(side)));
     }
 }
 
