@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <support/GridMesh.h>
 #include <support/PhotogrammetrySample.h>
 
 namespace osgAnalyticBin::test {
@@ -155,18 +156,8 @@ private:
                 texels->push_back(osg::Vec2d(double(column) / cells, double(row) / cells));
             }
         }
-        const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-        for (unsigned int row = 0; row < cells; ++row) {
-            for (unsigned int column = 0; column < cells; ++column) {
-                const unsigned int a = row * (cells + 1) + column;
-                for (const unsigned int i : {a, a + 1, a + cells + 2, a, a + cells + 2, a + cells + 1})
-                    triangles->push_back(static_cast<GLushort>(i));
-            }
-        }
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        geometry->setVertexArray(vertices);
+        const auto geometry = makeGeometry(vertices, gridTriangles<osg::DrawElementsUShort>(cells + 1));
         geometry->setTexCoordArray(0, texels);
-        geometry->addPrimitiveSet(triangles);
         const osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array;
         white->push_back(osg::Vec4(1, 1, 1, 1));
         geometry->setColorArray(white, osg::Array::BIND_OVERALL);

@@ -14,6 +14,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <support/GridMesh.h>
 #include <support/SceneryDatabase.h>
 #include <utility>
 #include <vector>
@@ -112,14 +113,7 @@ private:
         const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
         for (int j = 0; j < posts; ++j)
             for (int i = 0; i < posts; ++i) vertices->push_back(at({i / (posts - 1.0), j / (posts - 1.0)}));
-        const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-        for (int j = 0; j + 1 < posts; ++j) {
-            for (int i = 0; i + 1 < posts; ++i) {
-                const int a = j * posts + i;
-                for (const int index : {a, a + 1, a + posts + 1, a, a + posts + 1, a + posts})
-                    triangles->push_back(static_cast<GLushort>(index));
-            }
-        }
+        const auto triangles = gridTriangles<osg::DrawElementsUShort>(static_cast<unsigned int>(posts));
         const float shade = 0.4f + 0.3f * static_cast<float>(_number % 3);
         return geodeOf(vertices, triangles, {0.3f, shade, 0.2f, 1.0f});
     }

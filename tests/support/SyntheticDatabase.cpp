@@ -14,6 +14,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <support/GridMesh.h>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {
@@ -77,18 +78,6 @@ osg::Vec4 colourAt(const Address& tile, unsigned int i, unsigned int j) {
             brightness * (tile.row % 2 == tile.column % 2 ? 0.3f : 0.9f), 1.0f};
 }
 
-osg::ref_ptr<osg::DrawElementsUInt> gridTriangles() {
-    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (unsigned int j = 0; j + 1 < kPosts; ++j) {
-        for (unsigned int i = 0; i + 1 < kPosts; ++i) {
-            const unsigned int a = j * kPosts + i;
-            for (const unsigned int index : {a, a + 1u, a + kPosts + 1u, a, a + kPosts + 1u, a + kPosts})
-                triangles->push_back(index);
-        }
-    }
-    return triangles;
-}
-
 osg::ref_ptr<osg::Node> geometryOf(const Address& tile, const osg::EllipsoidModel& ellipsoid) {
     const osg::Vec3d center = binOf(tile).center(ellipsoid);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
@@ -106,16 +95,10 @@ osg::ref_ptr<osg::Node> geometryOf(const Address& tile, const osg::EllipsoidMode
             colours->push_back(colourAt(tile, i, j));
         }
     }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, gridTriangles(kPosts));
     geometry->setNormalArray(normals);
     geometry->setColorArray(colours);
-    geometry->addPrimitiveSet(gridTriangles());
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(geometry);
-    osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrixd::translate(center));
-    placed->addChild(geode);
-    return placed;
+    return placed(geometry, osg::Matrixd::translate(center));
 }
 
 // The file with the tile's four quarters.

@@ -28,14 +28,6 @@ bool isPlainGroup(const osg::Node& node) {
 
 }  // namespace
 
-Mover::Mover(const Mover& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::NodeCallback(other, copyop),
-      _start(other._start),
-      _step(other._step),
-      _frame(other._frame) {}
-
 void Mover::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     auto* transform = dynamic_cast<osg::MatrixTransform*>(node);
     if (transform && nv->getFrameStamp()) {
@@ -45,23 +37,11 @@ void Mover::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv);
 }
 
-Passer::Passer(const Passer& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::NodeCallback(other, copyop),
-      _skipsOddFrames(other._skipsOddFrames) {}
-
 void Passer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const bool isCull = nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
     if (isCull && _skipsOddFrames && nv->getTraversalNumber() % 2 == 1) return;
     traverse(node, nv);
 }
-
-LeaverOut::LeaverOut(const LeaverOut& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::NodeCallback(other, copyop),
-      _number(other._number) {}
 
 void LeaverOut::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (nv->getVisitorType() != osg::NodeVisitor::CULL_VISITOR) {
@@ -74,21 +54,12 @@ void LeaverOut::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     }
 }
 
-StatePusher::StatePusher(const StatePusher& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::NodeCallback(other, copyop),
-      _states(other._states) {}
-
 void StatePusher::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osgUtil::CullVisitor* const visitor = _states ? nv->asCullVisitor() : nullptr;
     if (visitor) visitor->pushStateSet(_states);
     traverse(node, nv);
     if (visitor) visitor->popStateSet();
 }
-
-Masker::Masker(const Masker& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _mask(other._mask) {}
 
 void Masker::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const osg::Node::NodeMask before = nv->getTraversalMask();
@@ -97,33 +68,15 @@ void Masker::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     nv->setTraversalMask(before);
 }
 
-OneShotCallback::OneShotCallback(const OneShotCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
-
 void OneShotCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const osg::ref_ptr<OneShotCallback> keep(this);
     traverse(node, nv);
     node->removeUpdateCallback(this);
 }
 
-OwnBound::OwnBound(const OwnBound& other, const osg::CopyOp& copyop)
-    : osg::Node::ComputeBoundingSphereCallback(other, copyop) {}
-
-OwnBox::OwnBox(const OwnBox& other, const osg::CopyOp& copyop)
-    : osg::Drawable::ComputeBoundingBoxCallback(other, copyop) {}
-
-DrawableLeaverOut::DrawableLeaverOut(const DrawableLeaverOut& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::DrawableCullCallback(other, copyop),
-      _leavesOut(other._leavesOut) {}
-
 bool DrawableLeaverOut::cull(osg::NodeVisitor* /*nv*/, osg::Drawable* /*drawable*/, osg::RenderInfo* /*info*/) const {
     return _leavesOut;
 }
-
-OwnDrawing::OwnDrawing(const OwnDrawing& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Drawable::DrawCallback(other, copyop), _draws(other._draws) {}
 
 void OwnDrawing::drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const {
     if (_draws) drawable->drawImplementation(info);

@@ -15,17 +15,28 @@
 #include <osg/Vec3d>
 
 #include <string>
+#include <type_traits>
 
 namespace osgAnalyticBin::test {
 
+/// What osg::clone() makes of a class by its own copy constructor.
+template <class Self, class Base>
+class Cloned : public Base {
+public:
+    [[nodiscard]] osg::Object* cloneType() const override { return new Self; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        Self* const copy = new Self(static_cast<const Self&>(*this));
+        if constexpr (std::is_base_of_v<osg::Callback, Base>)
+            copy->setNestedCallback(copyop(copy->getNestedCallback()));
+        return copy;
+    }
+};
+
 /// Moves a MatrixTransform by an equal step in every frame, in its own frame.
-class Mover : public osg::NodeCallback {
+class Mover : public Cloned<Mover, osg::NodeCallback> {
 public:
     Mover() = default;
     Mover(const osg::Matrixd& start, const osg::Vec3d& step, int frame) : _start(start), _step(step), _frame(frame) {}
-    Mover(const Mover& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new Mover; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new Mover(*this, copyop); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -36,12 +47,9 @@ private:
 };
 
 /// Does nothing, or leaves its node out of the odd frames.
-class Passer : public osg::NodeCallback {
+class Passer : public Cloned<Passer, osg::NodeCallback> {
 public:
     explicit Passer(bool skipsOddFrames = false) : _skipsOddFrames(skipsOddFrames) {}
-    Passer(const Passer& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new Passer; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new Passer(*this, copyop); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -50,12 +58,9 @@ private:
 };
 
 /// Leaves a child of its group out of the cull traversal, or all of a node that is no plain group.
-class LeaverOut : public osg::NodeCallback {
+class LeaverOut : public Cloned<LeaverOut, osg::NodeCallback> {
 public:
     explicit LeaverOut(unsigned int number = 0) : _number(number) {}
-    LeaverOut(const LeaverOut& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new LeaverOut; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new LeaverOut(*this, copyop); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -64,14 +69,9 @@ private:
 };
 
 /// Pushes a state in the cull traversal.
-class StatePusher : public osg::NodeCallback {
+class StatePusher : public Cloned<StatePusher, osg::NodeCallback> {
 public:
     explicit StatePusher(osg::StateSet* states = nullptr) : _states(states) {}
-    StatePusher(const StatePusher& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new StatePusher; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
-        return new StatePusher(*this, copyop);
-    }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -80,12 +80,9 @@ private:
 };
 
 /// Sets the traversal mask for what is below.
-class Masker : public osg::NodeCallback {
+class Masker : public Cloned<Masker, osg::NodeCallback> {
 public:
     explicit Masker(osg::Node::NodeMask mask = ~0u) : _mask(mask) {}
-    Masker(const Masker& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new Masker; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new Masker(*this, copyop); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -94,51 +91,29 @@ private:
 };
 
 /// Takes itself off when it has run.
-class OneShotCallback : public osg::NodeCallback {
+class OneShotCallback : public Cloned<OneShotCallback, osg::NodeCallback> {
 public:
-    OneShotCallback() = default;
-    OneShotCallback(const OneShotCallback& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new OneShotCallback; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
-        return new OneShotCallback(*this, copyop);
-    }
-
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 };
 
 /// Says what OSG says without it.
-class OwnBound : public osg::Node::ComputeBoundingSphereCallback {
+class OwnBound : public Cloned<OwnBound, osg::Node::ComputeBoundingSphereCallback> {
 public:
-    OwnBound() = default;
-    OwnBound(const OwnBound& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new OwnBound; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnBound(*this, copyop); }
-
     [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
 };
 
 /// Says what OSG says without it.
-class OwnBox : public osg::Drawable::ComputeBoundingBoxCallback {
+class OwnBox : public Cloned<OwnBox, osg::Drawable::ComputeBoundingBoxCallback> {
 public:
-    OwnBox() = default;
-    OwnBox(const OwnBox& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new OwnBox; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnBox(*this, copyop); }
-
     [[nodiscard]] osg::BoundingBox computeBound(const osg::Drawable& drawable) const override {
         return drawable.computeBoundingBox();
     }
 };
 
 /// Leaves a drawable out, or keeps it.
-class DrawableLeaverOut : public osg::DrawableCullCallback {
+class DrawableLeaverOut : public Cloned<DrawableLeaverOut, osg::DrawableCullCallback> {
 public:
     explicit DrawableLeaverOut(bool leavesOut = false) : _leavesOut(leavesOut) {}
-    DrawableLeaverOut(const DrawableLeaverOut& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new DrawableLeaverOut; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
-        return new DrawableLeaverOut(*this, copyop);
-    }
 
     bool cull(osg::NodeVisitor* nv, osg::Drawable* drawable, osg::RenderInfo* info) const override;
 
@@ -147,12 +122,9 @@ private:
 };
 
 /// Draws a drawable, or nothing in its place.
-class OwnDrawing : public osg::Drawable::DrawCallback {
+class OwnDrawing : public Cloned<OwnDrawing, osg::Drawable::DrawCallback> {
 public:
     explicit OwnDrawing(bool draws = true) : _draws(draws) {}
-    OwnDrawing(const OwnDrawing& other, const osg::CopyOp& copyop);
-    [[nodiscard]] osg::Object* cloneType() const override { return new OwnDrawing; }
-    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnDrawing(*this, copyop); }
 
     void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override;
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <support/GridMesh.h>
 #include <utility>
 
 namespace osgAnalyticBin::test {
@@ -30,29 +31,6 @@ constexpr double kSkirtRatio = 0.2;
 double skirtOf(const DatabaseSpec& database, int level) {
     const double width = database.tileWidth(level) * (database.isMap ? 1.0 : database.equatorial);
     return kSkirtRatio * width;
-}
-
-osg::ref_ptr<osg::DrawElementsUInt> surfaceOf(unsigned int posts) {
-    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (unsigned int j = 0; j + 1 < posts; ++j) {
-        for (unsigned int i = 0; i + 1 < posts; ++i) {
-            const unsigned int a = j * posts + i;
-            for (const unsigned int k : {a, a + 1, a + posts + 1, a, a + posts + 1, a + posts}) triangles->push_back(k);
-        }
-    }
-    return triangles;
-}
-
-/// The vertices around a tile, counter-clockwise, the first one again at the end.
-std::vector<unsigned int> borderOf(unsigned int posts) {
-    const unsigned int last = posts - 1;
-    std::vector<unsigned int> border;
-    for (unsigned int i = 0; i < last; ++i) border.push_back(i);
-    for (unsigned int j = 0; j < last; ++j) border.push_back(j * posts + last);
-    for (unsigned int i = last; i > 0; --i) border.push_back(last * posts + i);
-    for (unsigned int j = last; j > 0; --j) border.push_back(j * posts);
-    border.push_back(0);
-    return border;
 }
 
 /// A class of the application's that draws nothing, whatever its arrays say.
@@ -93,7 +71,7 @@ struct MeshMaker {
             for (int i = 0; i < posts; ++i) add(j / (posts - 1.0), i / (posts - 1.0), 0.0);
         geometry->setVertexArray(vertices);
         geometry->setTexCoordArray(0, texCoords);
-        geometry->addPrimitiveSet(surfaceOf(static_cast<unsigned int>(posts)));
+        geometry->addPrimitiveSet(gridTriangles(static_cast<unsigned int>(posts)));
         if (database.hasSkirts) addSkirt(*geometry);
         return geometry;
     }
@@ -101,15 +79,15 @@ struct MeshMaker {
     void addSkirt(osg::Geometry& geometry) {
         const osg::ref_ptr<osg::DrawElementsUInt> skirt =
             new osg::DrawElementsUInt(database.hasQuads ? GL_QUAD_STRIP : GL_TRIANGLE_STRIP);
-        const std::vector<unsigned int> border = borderOf(static_cast<unsigned int>(posts));
-        const auto first = static_cast<unsigned int>(vertices->size());
         const auto across = static_cast<unsigned int>(posts);
-        for (std::size_t i = 0; i + 1 < border.size(); ++i)
-            add((border[i] / across) / (posts - 1.0), (border[i] % across) / (posts - 1.0),
-                skirtOf(database, tile.level));
-        for (std::size_t i = 0; i < border.size(); ++i) {
-            skirt->push_back(border[i]);
-            skirt->push_back(first + static_cast<unsigned int>(i % (border.size() - 1)));
+        const std::vector<unsigned int> border = gridBorder(across);
+        const auto first = static_cast<unsigned int>(vertices->size());
+        for (const unsigned int post : border)
+            add((post / across) / (posts - 1.0), (post % across) / (posts - 1.0), skirtOf(database, tile.level));
+        for (std::size_t i = 0; i <= border.size(); ++i) {
+            const std::size_t at = i % border.size();
+            skirt->push_back(border[at]);
+            skirt->push_back(first + static_cast<unsigned int>(at));
         }
         geometry.addPrimitiveSet(skirt);
     }
@@ -158,10 +136,7 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
             for (const unsigned int k : {a, b, b + 4, a, b + 4, a + 4}) triangles->push_back(k);
         }
     }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(triangles);
-    return geometry;
+    return makeGeometry(vertices, triangles);
 }
 
 // Gives a sign a state in which nearer terrain does not cover it. Its render bin is drawn last.
@@ -208,7 +183,7 @@ bool isInHole(const Cell& cell, unsigned int cells, int variant) {
     }
 }
 
-// The grid's triangles are in the first primitive set; see surfaceOf().
+// The grid's triangles are in the first primitive set; see gridTriangles().
 void cutHole(osg::Geometry& geometry, int variant) {
     auto* const triangles = dynamic_cast<osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
     if (!triangles || triangles->size() % 6 != 0) return;

@@ -8,6 +8,7 @@
 #include "SceneText.h"
 #include "Shrinker.h"
 
+#include <osg/ArgumentParser>
 #include <osg/Notify>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
@@ -36,10 +37,9 @@ namespace {
 constexpr int kSkipped = 77;
 
 struct Arguments {
-    std::uint64_t scenes = 500;
-    std::uint64_t seed = 1;
-    std::uint64_t mostFailures = 10;
-    bool isOnly = false;
+    unsigned int scenes = 500;
+    unsigned int seed = 1;
+    unsigned int mostFailures = 10;
     bool describes = false;
     bool shrinks = true;
     bool hasPictures = false;
@@ -73,40 +73,21 @@ constexpr const char* kUsage =
 
 Arguments parse(int count, char** values) {
     Arguments result;
-    for (int i = 1; i < count; ++i) {
-        const std::string name = values[i];
-        const auto number = [&] {
-            if (i + 1 >= count) result.isValid = false;
-            return i + 1 < count ? std::strtoull(values[++i], nullptr, 0) : 0;
-        };
-        if (name == "--scenes") {
-            result.scenes = number();
-        } else if (name == "--seed") {
-            result.seed = number();
-        } else if (name == "--only") {
-            result.seed = number();
-            result.isOnly = true;
-        } else if (name == "--failures") {
-            result.mostFailures = number();
-        } else if (name == "--leave-out" && i + 1 < count) {
-            result.leftOut.emplace_back(values[++i]);
-        } else if (name == "--everything") {
-            result.hasEverything = true;
-        } else if (name == "--no-bins") {
-            result.hasBins = false;
-        } else if (name == "--describe") {
-            result.describes = true;
-        } else if (name == "--no-shrink") {
-            result.shrinks = false;
-        } else if (name == "--pictures") {
-            result.hasPictures = true;
-        } else if (name.rfind("--", 0) != 0) {
-            result.files.push_back(name);
-        } else {
-            result.isValid = false;
-        }
-    }
-    if (result.isOnly) result.scenes = 1;
+    osg::ArgumentParser parser(&count, values);
+    std::string text;
+    (void)parser.read("--scenes", result.scenes);
+    (void)parser.read("--seed", result.seed);
+    (void)parser.read("--failures", result.mostFailures);
+    if (parser.read("--only", result.seed)) result.scenes = 1;
+    while (parser.read("--leave-out", text)) result.leftOut.push_back(text);
+    result.hasEverything = parser.read("--everything");
+    result.hasBins = !parser.read("--no-bins");
+    result.describes = parser.read("--describe");
+    result.shrinks = !parser.read("--no-shrink");
+    result.hasPictures = parser.read("--pictures");
+    parser.reportRemainingOptionsAsUnrecognized();
+    result.isValid = !parser.errors();
+    for (int i = 1; i < parser.argc(); ++i) result.files.emplace_back(parser[i]);
     if (!result.hasEverything) result.leftOut.insert(result.leftOut.end(), kExcluded.begin(), kExcluded.end());
     if (!result.hasEverything && result.hasPictures) result.leftOut.emplace_back(kNotInPictures);
     return result;
@@ -242,7 +223,7 @@ int main(int argc, char** argv) {
     std::uint64_t failures = 0;
     std::uint64_t scenes = 0;
     for (; scenes < arguments.scenes && failures < arguments.mostFailures; ++scenes) {
-        const std::uint64_t seed = arguments.seed + scenes;
+        const std::uint64_t seed = std::uint64_t{arguments.seed} + scenes;
         std::snprintf(presentScene, sizeof presentScene, "%llu\n", static_cast<unsigned long long>(seed));
         Description description = randomDescription(seed);
         description.hasBins = arguments.hasBins;

@@ -1,252 +1,137 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The callback in a real osgUtil::CullVisitor without a window; what is compared is the set of tiles that the traversal
-// reaches. Oracles: dense samples of each bin against the frustum's planes (never culled when a sample is inside),
-// relations (a moved globe, a local frame, masks on and off), OSG's own tests for small features and occluders.
-// The verdict against a single plane is tested in core/.
+// The callback in a real osgUtil::CullVisitor without a window, and what is counted there. Oracles: the set of tiles
+// that the traversal reaches; relations (a moved globe, a local frame). That no tile is culled that is seen:
+// ProjectionTest.cpp. The verdict against a single plane is tested in core/.
 
+#include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osg/UserDataContainer>
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <support/Random.h>
-#include <thread>
+#include <vector>
 
 namespace osgAnalyticBin {
 namespace {
 
 using core::GeodeticBin;
 using test::CullView;
-
+using test::horizonOptions;
 using test::kEarthRadius;
+using test::kOccluderDepth;
 using test::osgVector;
 
 CullView randomGlobeView(test::Random& random) {
-    const osg::Vec3d eye = test::randomEyeAbove(random, 2e4);
+    const osg::Vec3d eye = test::randomEyeAbove(random, 1e3);
     const osg::Vec3d target = osgVector(random.direction()) * kEarthRadius;
-    const osg::Vec3d up = osgVector(random.direction());
-    return CullView::lookAt(eye, target, up, random.uniform(2.0, 90.0));
+    return CullView::lookAt(eye, target, osgVector(random.direction()), random.uniform(2.0, 90.0));
 }
 
-struct SmallGlobe {
-    explicit SmallGlobe(const CullOptions& options = {}) : bins(test::startTiles()) {
-        for (std::size_t i = 0; i < bins.size(); ++i) {
+// Looks at the middle of the globe.
+CullView lookDown(double altitude, double fovDeg = 40.0) {
+    return CullView::lookAt({kEarthRadius + altitude, 0, 0}, {0, 0, 0}, {0, 0, 1}, fovDeg);
+}
+
+struct CountedGlobe {
+    explicit CountedGlobe(const CullOptions& options = {}) : bins(test::startTiles()) {
+        for (std::size_t i = 0; i < bins.size(); ++i)
             root->addChild(test::makeTile(std::to_string(i), bins[i], visited, options));
-        }
     }
 
-    std::set<std::string> reached(osg::Node& scene, const CullView& view) {
+    std::set<std::string> reached(osg::Node& scene, const CullView& view, float pixels = 2.0f) {
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        visitor->setSmallFeatureCullingPixelSize(pixels);
         test::cull(scene, view, *visitor);
+        counts = BinStatistics::of(*visitor).getCounts();
         return visited;
     }
 
     osg::ref_ptr<osg::Group> root = new osg::Group;
     std::vector<AnalyticBin> bins;
     std::set<std::string> visited;
+    BinCounts counts;
 };
 
-bool anyInside(const std::vector<osg::Vec3d>& points, const std::vector<osg::Plane>& planes) {
-    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& p) {
-        return std::all_of(planes.begin(), planes.end(),
-                           [&](const osg::Plane& plane) { return plane.distance(p) >= 0.0; });
-    });
-}
-
-TEST(AnalyticBinCullCallback, NeverCullsATileWithAVisibleSample) {
-    SmallGlobe globe;
-    std::vector<std::vector<osg::Vec3d>> points;
-    for (const AnalyticBin& bin : globe.bins) points.push_back(test::samples(bin, 13));
-    test::Random random(10);
-    int culled = 0;
-    for (int i = 0; i < 300; ++i) {
-        const CullView view = randomGlobeView(random);
-        const std::set<std::string> reached = globe.reached(*globe.root, view);
-        const std::vector<osg::Plane> planes = view.sidePlanes();
-        for (std::size_t t = 0; t < points.size(); ++t) {
-            if (reached.count(std::to_string(t))) continue;
-            ++culled;
-            ASSERT_FALSE(anyInside(points[t], planes)) << "view " << i << ", tile " << t;
-        }
-    }
-    EXPECT_GT(culled, 300 * 128 / 4);  // and it does cull
-}
-
-TEST(AnalyticBinCullCallback, CullsWhatTheSphereKeeps) {
-    SmallGlobe globe;
-    test::Random random(11);
-    const osg::EllipsoidModel wgs84;
-    int byBins = 0;
-    int bySpheres = 0;
-    for (int i = 0; i < 200; ++i) {
-        const CullView view = randomGlobeView(random);
-        byBins += static_cast<int>(globe.reached(*globe.root, view).size());
-        osg::Polytope frustum(view.sidePlanes());
-        for (const AnalyticBin& bin : globe.bins) bySpheres += frustum.contains(bin.boundingSphere(wgs84)) ? 1 : 0;
-    }
-    EXPECT_LT(byBins, 0.9 * bySpheres) << byBins << " of " << bySpheres;
-}
-
-TEST(AnalyticBinCullCallback, AGlobeUnderATransformIsCulledLikeAGlobeAtRest) {
-    SmallGlobe globe;
+TEST(AnalyticBinCullCallback, CullsAGlobeThatATransformMovesTurnsAndScalesLikeOneAtRest) {
+    CountedGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
     mover->addChild(globe.root);
-    test::Random random(12);
+    test::Random random(31);
     for (int i = 0; i < 60; ++i) {
         CullView view = randomGlobeView(random);
         const std::set<std::string> atRest = globe.reached(*globe.root, view);
+        // A line of sight stays a line under any affine map: unequal scales do no harm.
+        const osg::Vec3d scale = i % 2 ? osg::Vec3d(0.5, 0.5, 0.5) : osg::Vec3d(0.5, 2.0, 1.25);
         const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), 0.3, 0.5, -0.8) *
-                                    osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(1e7, -3e6, 5e5);
+                                    osg::Matrixd::scale(scale) * osg::Matrixd::translate(1e7, -3e6, 5e5);
         mover->setMatrix(motion);
         view.modelView = osg::Matrixd::inverse(motion) * view.modelView;
         EXPECT_EQ(globe.reached(*mover, view), atRest) << "view " << i;
     }
 }
 
-TEST(AnalyticBinCullCallback, ATileInALocalFrameIsCulledLikeOneInEcef) {
-    const std::vector<AnalyticBin> bins = test::startTiles();
-    SmallGlobe globe;
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> locals = new osg::Group;
+TEST(AnalyticBinCullCallback, CullsATileInALocalFrameLikeOneInEcef) {
+    CountedGlobe globe, local;
     const osg::EllipsoidModel wgs84;
-    for (std::size_t i = 0; i < bins.size(); ++i) {
+    for (std::size_t i = 0; i < local.bins.size(); ++i) {
         osg::Matrixd localToEcef;
-        const core::Geodetic center = bins[i].bin().center();
+        const core::Geodetic center = local.bins[i].bin().center();
         wgs84.computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, localToEcef);
-        osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(localToEcef);
-        osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bins[i], wgs84);
-        callback->setLocalToEcef(localToEcef);
-        callback->setNestedCallback(new test::VisitRecorder(std::to_string(i), visited));
-        tile->setCullCallback(callback.get());
+        const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(localToEcef);
+        const osg::ref_ptr<osg::Callback> callback = local.root->getChild(static_cast<unsigned>(i))->getCullCallback();
+        dynamic_cast<AnalyticBinCullCallback&>(*callback).setLocalToEcef(localToEcef);
+        tile->setCullCallback(callback);
         tile->setCullingActive(false);
-        locals->addChild(tile);
+        local.root->setChild(static_cast<unsigned>(i), tile);
     }
     test::Random random(13);
     for (int i = 0; i < 60; ++i) {
         const CullView view = randomGlobeView(random);
-        const std::set<std::string> inEcef = globe.reached(*globe.root, view);
-        visited.clear();
-        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-        test::cull(*locals, view, *visitor);
-        EXPECT_EQ(visited, inEcef) << "view " << i;
+        EXPECT_EQ(local.reached(*local.root, view), globe.reached(*globe.root, view)) << "view " << i;
     }
 }
 
-// Notes the mask of undecided planes that a cull traversal finds at a node.
-class MaskRecorder : public osg::NodeCallback {
-public:
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
-        traverse(node, nv);
-    }
-    unsigned int mask = ~0u;
-};
-
-osg::ref_ptr<osg::Group> makeRecordedChild(osg::Group& parent, osg::ref_ptr<MaskRecorder>& recorder) {
-    osg::ref_ptr<osg::Group> child = new osg::Group;
-    recorder = new MaskRecorder;
-    child->setCullCallback(recorder.get());
-    child->setCullingActive(false);
-    parent.addChild(child);
-    return child;
-}
-
-TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphOnly) {
+TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphAlone) {
+    struct MaskReader : osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+            mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
+            traverse(node, nv);
+        }
+        unsigned int mask = 99;
+    };
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     const AnalyticBin inside(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
-    const AnalyticBin straddling(GeodeticBin::fromDegrees({-1, 1}, {-20, 20}, {0, 100}));
-    osg::ref_ptr<MaskRecorder> below[2];
-    osg::ref_ptr<MaskRecorder> beside;
-    int i = 0;
-    for (const AnalyticBin& bin : {inside, straddling}) {
-        const osg::ref_ptr<osg::Group> tile = test::makeTile("tile" + std::to_string(i), bin, visited);
+    const AnalyticBin across(GeodeticBin::fromDegrees({-1, 1}, {-20, 20}, {0, 100}));
+    const osg::ref_ptr<osg::Group> tiles[] = {test::makeTile("inside", inside, visited),
+                                              test::makeTile("across", across, visited), new osg::Group};
+    std::vector<osg::ref_ptr<MaskReader>> readers;
+    for (const auto& tile : tiles) {
+        const osg::ref_ptr<osg::Group> child = new osg::Group;
+        readers.push_back(new MaskReader);
+        child->setCullCallback(readers.back());
+        child->setCullingActive(false);
+        tile->setCullingActive(false);
+        tile->addChild(child);
         root->addChild(tile);
-        makeRecordedChild(*tile, below[i++]);
     }
-    makeRecordedChild(*root, beside);
-    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, view, *visitor);
-    EXPECT_EQ(below[0]->mask, 0u);           // inside all planes
-    EXPECT_EQ(below[1]->mask & 0x3u, 0x3u);  // across left and right
-    EXPECT_EQ(below[1]->mask & 0xcu, 0u);    // between bottom and top
-    EXPECT_EQ(beside->mask, 0xfu);           // what follows is untouched
-}
-
-TEST(AnalyticBinCullCallback, TheSameTilesAreReachedWithMasksOnAndOff) {
-    // Two generations: children under their parents (masks inherited) against children alone (all planes tested).
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> nested = new osg::Group;
-    const osg::ref_ptr<osg::Group> flat = new osg::Group;
-    int id = 0;
-    for (const AnalyticBin& bin : test::startTiles()) {
-        const osg::ref_ptr<osg::Group> parent = test::makeTile("parent", bin, visited);
-        nested->addChild(parent);
-        for (const GeodeticBin& quarter : bin.bin().quarters()) {
-            const std::string name = std::to_string(id++);
-            parent->addChild(test::makeTile(name, AnalyticBin(quarter), visited));
-            flat->addChild(test::makeTile(name, AnalyticBin(quarter), visited));
-        }
-    }
-    test::Random random(14);
-    for (int i = 0; i < 100; ++i) {
-        const CullView view = randomGlobeView(random);
-        std::set<std::string> sets[2];
-        int k = 0;
-        for (const auto& scene : {nested, flat}) {
-            visited.clear();
-            const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-            test::cull(*scene, view, *visitor);
-            visited.erase("parent");
-            sets[k++] = visited;
-        }
-        EXPECT_EQ(sets[0], sets[1]) << "view " << i;
-    }
-}
-
-TEST(AnalyticBinCullCallback, KeepsSmallFeatureCulling) {
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(
-        test::makeTile("small", AnalyticBin(GeodeticBin::fromDegrees({0, 0.001}, {0, 0.001}, {0, 10})), visited));
-    root->addChild(test::makeTile("large", AnalyticBin(GeodeticBin::fromDegrees({0, 5}, {0, 5}, {0, 10})), visited));
-    CullView view = CullView::lookAt({kEarthRadius + 5e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, view, *visitor);
-    EXPECT_EQ(visited, (std::set<std::string>{"large", "small"}));
-    visited.clear();
-    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
-    test::cull(*root, view, *visitor, 2);
-    EXPECT_EQ(visited, std::set<std::string>{"large"});
-}
-
-TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {
-    SmallGlobe globe;
-    CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0);
-    EXPECT_LT(globe.reached(*globe.root, view).size(), 10u);
-    view.cullingMode = osg::CullSettings::NO_CULLING;
-    EXPECT_EQ(globe.reached(*globe.root, view).size(), 128u);
-}
-
-TEST(AnalyticBinCullCallback, HonoursNearAndFarPlanes) {
-    SmallGlobe globe;
-    CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-    view.projection = osg::Matrixd::perspective(60.0, 1.0, 1.0, 3e6);  // ends inside the earth
-    const std::size_t sides = globe.reached(*globe.root, view).size();
-    view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
-    EXPECT_LT(globe.reached(*globe.root, view).size(), sides);
+    test::cull(*root, lookDown(1e6), *visitor);
+    EXPECT_EQ(readers[0]->mask, 0u);
+    EXPECT_EQ(readers[1]->mask, 3u) << "left and right";
+    EXPECT_EQ(readers[2]->mask, 15u) << "what follows is untouched";
 }
 
 TEST(AnalyticBinCullCallback, DoubtIsVisible) {
@@ -282,32 +167,103 @@ TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {
     EXPECT_EQ(visited, std::set<std::string>{"moon"});
 }
 
+TEST(HorizonCulling, IsUsedWhereItIsAskedForAndHidesNothingThatIsDrawnInFrontOfAll) {
+    const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    CountedGlobe undeclared, globe(horizonOptions());
+    undeclared.reached(*undeclared.root, view);
+    EXPECT_EQ(undeclared.counts.hidden, 0u);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setCullingActive(false);
+    scene->addChild(globe.root);
+    globe.reached(*scene, view);
+    EXPECT_GT(globe.counts.hidden, 0u);
+    scene->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    globe.reached(*scene, view);
+    EXPECT_EQ(globe.counts.hidden, 0u);
+}
+
+TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    setStoredBin(*tile, AnalyticBin(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {0, 100})));
+    root->addChild(tile);
+    root->setUpdateCallback(new InstallBinsCallback(horizonOptions()));
+    const auto installed = [&](const CullOptions& options) {
+        installBins(*root, options);
+        return dynamic_cast<AnalyticBinCullCallback&>(*tile->getCullCallback()).getCullOptions();
+    };
+    EXPECT_EQ(installed({}).horizonUse, HorizonUse::Given);
+    EXPECT_EQ(installed({}).horizon, -kOccluderDepth);
+    CullOptions off;
+    off.horizonUse = HorizonUse::Off;
+    EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
+    CullOptions other = horizonOptions();
+    other.horizon = -9.0;
+    EXPECT_EQ(installed(other).horizon, -9.0);
+}
+
+TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
+    CullOptions off;
+    off.edges = false;
+    CountedGlobe with, without(off);
+    test::Random random(32);
+    unsigned int separated = 0;
+    for (int i = 0; i < 200; ++i) {
+        const CullView view = randomGlobeView(random);
+        const std::set<std::string> reached = with.reached(*with.root, view);
+        separated += with.counts.beyondEdge;
+        const std::set<std::string> more = without.reached(*without.root, view);
+        EXPECT_EQ(without.counts.beyondEdge, 0u);
+        EXPECT_EQ(reached.size() + with.counts.beyondEdge, more.size());
+    }
+    EXPECT_GT(separated, 20u);
+}
+
+// Counted is what became of a tile, not what its bin alone said: small features are outside.
+TEST(CulledCounts, AreThoseOfTheTilesThatAreReachedAlsoOfSmallFeatures) {
+    CountedGlobe globe;
+    CullView view = CullView::lookAt({5 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 50.0);
+    view.projection = osg::Matrixd::perspective(50.0, 1.0, 1e5, 1e8);
+    const auto counted = [&](float pixels) {
+        const std::size_t reached = globe.reached(*globe.root, view, pixels).size();
+        EXPECT_EQ(globe.counts.tested, 128u);
+        EXPECT_EQ(globe.counts.inside + globe.counts.straddling, reached);
+        EXPECT_EQ(globe.counts.outside, 128u - reached);
+        return globe.counts;
+    };
+    const BinCounts all = counted(2.0f);
+    ASSERT_GT(all.inside, 0u);
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_EQ(counted(2.0f).outside, all.outside) << "none is smaller than two pixels";
+    int partly = 0;
+    for (float pixels = 20.0f; pixels < 200.0f; pixels += 5.0f) {
+        const unsigned int outside = counted(pixels).outside;
+        if (outside > all.outside && outside < 128u) ++partly;
+    }
+    EXPECT_GT(partly, 2);
+    EXPECT_EQ(counted(1e6f).outside, 128u);
+}
+
 TEST(BinStatistics, CountsEachTraversalOnce) {
-    SmallGlobe globe;
-    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
     for (unsigned int frame = 1; frame <= 3; ++frame) {
-        globe.visited.clear();
-        test::cull(*globe.root, view, *visitor, frame);
-        const BinStatistics* statistics = BinStatistics::find(*visitor);
-        ASSERT_NE(statistics, nullptr);
-        const BinCounts counts = statistics->getCounts();
-        EXPECT_EQ(counts.frame, frame);
-        EXPECT_EQ(counts.tested, 128u);
-        EXPECT_EQ(counts.inside + counts.straddling, globe.visited.size());
-        EXPECT_EQ(counts.outside, 128u - globe.visited.size());
+        test::cull(*globe.root, lookDown(1e6), *visitor, frame);
+        ASSERT_NE(BinStatistics::find(*visitor), nullptr);
+        EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().frame, frame);
+        EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 128u);
     }
 }
 
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
-    SmallGlobe globe;
+    CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *a);
+    test::cull(*globe.root, lookDown(1e6), *a);
     const BinCounts before = BinStatistics::find(*a)->getCounts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
-    test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *b);
+    test::cull(*globe.root, lookDown(1e7), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
     // they may cull in two threads: nothing is put into what OSG has them share
@@ -315,47 +271,46 @@ TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     EXPECT_EQ(a->getUserDataContainer()->getNumUserObjects(), 1u);
 }
 
-// Counts without a set: several threads may write to it.
-class VisitCounter : public osg::NodeCallback {
-public:
+// An application's callback on the CoordinateSystemNode that the database's own one stands on.
+struct Gate : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        ++count;
-        traverse(node, nv);
+        ++runs;
+        if (isOpen) traverse(node, nv);
     }
-    std::atomic<unsigned int> count{0};
+    int runs = 0;
+    bool isOpen = true;
 };
 
-TEST(AnalyticBinCullCallback, SeveralCullTraversalsMayRunAtOnce) {
-    const osg::ref_ptr<VisitCounter> counter = new VisitCounter;
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    for (const AnalyticBin& bin : test::startTiles()) {
-        osg::ref_ptr<osg::Group> tile = new osg::Group;
-        osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, osg::EllipsoidModel());
-        callback->setNestedCallback(counter.get());
-        tile->setCullCallback(callback.get());
-        tile->setCullingActive(false);
-        root->addChild(tile);
+TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
+    enum Place { BehindBeforeInstalling, BehindAfterInstalling, InFront };
+    for (const Place place : {BehindBeforeInstalling, BehindAfterInstalling, InFront}) {
+        test::MeshGlobe globe;
+        const osg::ref_ptr<Gate> gate = new Gate;
+        if (place == BehindBeforeInstalling) globe.root->setCullCallback(gate);
+        ASSERT_EQ(installBins(*globe.root), 32u);
+        if (place == BehindAfterInstalling) globe.root->addCullCallback(gate);
+        if (place == InFront) {
+            gate->setNestedCallback(globe.root->getCullCallback());
+            globe.root->setCullCallback(gate);
+        }
+        const auto expectItToDecide = [&](const char* when) {
+            for (const bool isOpen : {true, false}) {
+                gate->isOpen = isOpen;
+                gate->runs = 0;
+                EXPECT_EQ(globe.draws(*globe.tiles[19], globe.fromAbove()), isOpen) << when << place;
+                EXPECT_EQ(gate->runs, 1) << when << place;
+                EXPECT_FALSE(globe.draws(*globe.tiles[20], test::downTo(22.5, -22.5))) << when << place;
+            }
+        };
+        expectItToDecide("at first ");
+        for (const Method method : {Method::Quadratic, Method::Exact, Method::Quadratic}) {
+            CullOptions options;
+            options.method = method;
+            installBins(*globe.root, options);
+            test::update(*globe.root);
+            expectItToDecide("later ");
+        }
     }
-    root->getBound();  // as the viewer does before it starts its threads
-    constexpr unsigned int kFrames = 200;
-    std::vector<BinCounts> counts(4);
-    std::vector<std::thread> threads;
-    for (std::size_t t = 0; t < counts.size(); ++t) {
-        threads.emplace_back([&, t] {
-            const CullView view =
-                CullView::lookAt({kEarthRadius + 1e6 * double(t + 1), 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
-            const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-            for (unsigned int frame = 1; frame <= kFrames; ++frame) test::cull(*root, view, *visitor, frame);
-            counts[t] = BinStatistics::find(*visitor)->getCounts();
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
-    unsigned int kept = 0;
-    for (const BinCounts& c : counts) {
-        EXPECT_EQ(c.tested, 128u);
-        kept += kFrames * (c.inside + c.straddling);
-    }
-    EXPECT_EQ(counter->count, kept);
 }
 
 }  // namespace

@@ -58,25 +58,6 @@ TEST(AddedContent, IsATileThatIsATransformAndMoves) {
     }
 }
 
-TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
-    FiledGlobe globe;
-    osg::Group* const leaf = globe.group->getChild(0)->asGroup();
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Node> tower =
-        makeTower(place * osg::Matrixd::inverse(leaf->getChild(0)->getWorldMatrices()[0]));
-    const CullView view = beside(place);
-    EXPECT_FALSE(globe.draws(*leaf, view));
-    leaf->getChild(0)->asGroup()->addChild(tower);
-    EXPECT_TRUE(globe.draws(*tower, view));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*tower, view));
-    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 30000.0);
-    EXPECT_LE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 31000.0);
-    // the tiles are culled by what they hold now
-    EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
-    EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
-}
-
 // 20 km above the middle of a tile, in the frame of its mesh.
 struct AboveTheMesh {
     explicit AboveTheMesh(MeshGlobe& globe)
@@ -153,51 +134,6 @@ TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
     }
 }
 
-// As FlightGear has it: trees in a level of detail, and a house.
-TEST(AddedContent, OnTheSurfaceOfATileKeepsOsgsOwnCulling) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::Group> content = new osg::Group;
-    const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
-    trees->addChild(makeTower(ecefDeg(3, 3, 0)), 0.0f, 1e9f);
-    const osg::ref_ptr<osg::MatrixTransform> house = makeTower(ecefDeg(4, 4, 0));
-    content->addChild(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0));
-    content->addChild(trees);
-    content->addChild(house);
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(content, "no.osgb");
-    globe.root->addChild(tile);
-    const auto drawnAt = [&](double latitude, double longitude) {
-        const CullView view = downTo(latitude, longitude, 20000.0);
-        return std::array<bool, 3>{globe.draws(*content->getChild(0), view), globe.draws(*trees, view),
-                                   globe.draws(*house, view)};
-    };
-    for (const bool isInstalled : {false, true}) {
-        if (isInstalled) installBins(*globe.root);
-        EXPECT_EQ(drawnAt(3, 3), (std::array<bool, 3>{true, true, false})) << isInstalled;
-        EXPECT_EQ(drawnAt(4, 4), (std::array<bool, 3>{true, false, true})) << isInstalled;
-        EXPECT_EQ(drawnAt(1, 1), (std::array<bool, 3>{true, false, false})) << isInstalled;
-    }
-}
-
-// A group of small things is culled as one, however far they stand apart.
-TEST(AddedContent, OnTheSurfaceKeepsOsgsCullingOfItsGroups) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> content = makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0);
-    const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
-    const osg::ref_ptr<osg::Group> wood = new osg::Group;
-    for (const double place : {1.0, 4.0}) {
-        const osg::ref_ptr<osg::MatrixTransform> tree = makeTower(ecefDeg(place, place, 0));
-        tree->setMatrix(tree->getMatrix() * toLocal);
-        wood->addChild(tree);
-    }
-    content->addChild(wood);
-    globe.root->addChild(makePaged(content, "no.osgb"));
-    installBins(*globe.root);
-    EXPECT_TRUE(wood->isCullingActive());
-    EXPECT_TRUE(globe.draws(*wood, downTo(1, 1, 20000.0)));
-    EXPECT_FALSE(globe.draws(*wood, downTo(4.9, 0.1, 20000.0)));
-    EXPECT_TRUE(globe.draws(*content->getChild(0), downTo(4.9, 0.1, 20000.0)));
-}
-
 // A file of one transform with ground, a house, a tower in the air, and a mill that an application moves.
 TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove) {
     FiledGlobe globe;
@@ -234,60 +170,6 @@ TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove)
     }
 }
 
-TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {
-    MeshGlobe globe;
-    globe.root->removeChildren(0, globe.root->getNumChildren());
-    for (int row = 0; row < 5; ++row) {
-        for (int column = 0; column < 8; ++column) {
-            const double south = 0.25 * row, west = 0.25 * column;
-            const auto content = makeMeshTile(extentsDeg(south, south + 0.25, west, west + 0.25), 0.0);
-            const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
-            for (int i = 0; i < 6; ++i) {
-                const osg::ref_ptr<osg::MatrixTransform> tower =
-                    makeTower(ecefDeg(south + 0.04 * i, west + 0.03 * i + 0.02, 0));
-                tower->setMatrix(tower->getMatrix() * toLocal);
-                const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
-                trees->addChild(tower, 0.0f, 3e4f);
-                content->addChild(trees);
-            }
-            globe.root->addChild(makePaged(content, "no.osgb"));
-        }
-    }
-    const auto drawn = [&globe](const CullView& view) {
-        return cull(*globe.scene, view, *globe.visitor, ++globe.frame).drawn.size();
-    };
-    const std::array<CullView, 3> views{
-        downTo(0.6, 1.0, 15000.0), CullView::lookAt(ecefDeg(0.1, 0.1, 1500.0), ecefDeg(0.6, 0.8, 0.0), {1, 0, 0}, 55.0),
-        CullView::lookAt(ecefDeg(1.2, 1.9, 300.0), ecefDeg(1.1, 1.6, 0.0), {1, 0, 0}, 30.0)};
-    std::array<std::size_t, 3> without{};
-    std::transform(views.begin(), views.end(), without.begin(), drawn);
-    installBins(*globe.root);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        EXPECT_GT(without[i], 1u);
-        EXPECT_LE(drawn(views[i]), without[i]) << i;
-    }
-}
-
-TEST(AddedContent, ThatCameWithAFileIsDrawn) {
-    FiledGlobe globe;
-    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    file->addChild(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0));
-    const osg::ref_ptr<osg::MatrixTransform> written = makeTower(place);
-    written->setDataVariance(osg::Object::DYNAMIC);
-    file->addChild(written);
-    ASSERT_TRUE(osgDB::writeNodeFile(*file, globe.folder / "group.osgb"));
-    pageOut(*globe.tile);
-    const osg::ref_ptr<osg::Node> content = readBelow(*globe.tile);
-    // as the pager does before it merges a file
-    (void)content->getBound();
-    putBelow(*globe.tile, content);
-    osg::Node& tower = *content->asGroup()->getChild(1);
-    EXPECT_TRUE(globe.draws(tower, beside(place)));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(tower, beside(place)));
-}
-
 TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
     FiledGlobe globe;
     const osg::ref_ptr<osg::MatrixTransform> vehicle = makeTower(ecefDeg(20, 20, 100.0));
@@ -313,22 +195,6 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
     const osg::ref_ptr<osg::Node> tower = makeTower(place);
     globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
     EXPECT_TRUE(globe.draws(*tower, beside(place)));
-}
-
-// A Terrain of 32 flat osgTerrain tiles below PagedLODs.
-osg::ref_ptr<osgTerrain::Terrain> makeTerrain() {
-    osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
-    for (int i = 0; i < 32; ++i) {
-        const double south = -90.0 + 45.0 * (i / 8);
-        const double west = -180.0 + 45.0 * (i % 8);
-        terrain->addChild(makePaged(makeFlatTile(extentsDeg(south, south + 45, west, west + 45), 3000.0f), "no.osgb"));
-    }
-    return terrain;
-}
-
-std::size_t tilesDrawn(osg::Node& scene, const CullView& view) {
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    return cull(scene, view, *visitor).drawn.size();
 }
 
 // What OSG does not cull below a tile keeps the tile and those above it, too: a light shines on everything beside it.
@@ -361,87 +227,19 @@ TEST_P(NeverCulled, IsALightSource) {
     EXPECT_TRUE(shines(globe, *source->getLight()));
 }
 
-TEST_P(NeverCulled, IsAModelThatStandsElsewhereByItsFrameOrItsShader) {
-    for (const bool isAbsolute : {false, true}) {
-        FiledGlobe globe;
-        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(ecefDeg(20, 20, 100.0));
-        if (isAbsolute) model->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-        model->setCullingActive(false);
-        model->getChild(0)->setCullingActive(false);
-        drawableOf(*model)->setCullingActive(false);
-        EXPECT_FALSE(globe.draws(*globe.group, beyond()));
-        add(globe, *model);
-        for (int i = 0; i < 2; ++i) {
-            EXPECT_TRUE(globe.draws(*model, beyond())) << isAbsolute << i;
-            update(*globe.root);
-        }
-        installBins(*globe.root);
-        EXPECT_TRUE(globe.draws(*model, beyond())) << isAbsolute;
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
-
-TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
-    const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
-    // looks over the tile at 3 km, up to where it is at scale 10
-    const CullView view =
-        CullView::lookAt(ecefDeg(22.5, -22.5, 60000.0), ecefDeg(23.5, -22.5, 31000.0), ecefDeg(22.5, -22.5, 0.0), 2.0);
-    installBins(*terrain);
-    const osg::ref_ptr<osgTerrain::Terrain> clone =
-        osg::clone(terrain.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS);
-    clone->setVerticalScale(10.0f);
-    osg::Node& tile = *clone->getChild(19);
-    std::set<std::string> visited;
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    tile.asGroup()->getChild(0)->addCullCallback(new VisitRecorder("tile", visited));
-    (void)cull(*clone, view, *visitor);
-    EXPECT_EQ(visited.count("tile"), 1u) << "before the clone has a database of its own";
-    update(*clone);
-    ASSERT_NE(installedOn(tile), nullptr);
-    ASSERT_TRUE(installedOn(tile)->getTerrainShape().has_value());
-    EXPECT_EQ(installedOn(tile)->getTerrainShape()->verticalScale, 10.0);
-    visited.clear();
-    (void)cull(*clone, view, *visitor);
-    EXPECT_EQ(visited.count("tile"), 1u);
-    visited.clear();
-    (void)cull(*clone, CullView::lookAt(ecefDeg(22.5, 157.5, 60000.0), ecefDeg(22.5, 157.5, 0.0), {0, 0, 1}, 20.0),
-               *visitor);
-    EXPECT_EQ(visited.count("tile"), 0u) << "the clone is culled by its own bins";
-    // the original keeps its own
-    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
-}
-
-TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
-    const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
-    installBins(*terrain);
-    const osg::ref_ptr<osgTerrain::Terrain> clone = osg::clone(terrain.get(), osg::CopyOp::DEEP_COPY_NODES);
-    setCullOptions(*clone, {});
-    update(*clone);
-    clone->setVerticalScale(10.0f);
-    update(*clone);
-    ASSERT_NE(installedOn(*clone->getChild(19)), nullptr);
-    EXPECT_EQ(installedOn(*clone->getChild(19))->getTerrainShape()->verticalScale, 10.0);
-    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
-}
 
 TEST(Clones, ThatShareCallbacksStayVisible) {
     MeshGlobe globe;
-    // OSG tells nothing of what is drawn: bins alone do
-    const auto letOsgCull = [&globe](bool culls) {
-        for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(culls);
-    };
     installBins(*globe.root);
-    letOsgCull(false);
+    // OSG tells nothing of what is drawn: bins alone do
+    for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
     const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
-    EXPECT_LT(tilesDrawn(*globe.root, downTo(22.5, -22.5)), 8u);
-    EXPECT_EQ(tilesDrawn(*clone, downTo(22.5, -22.5)), 32u);
-    update(*clone);
-    update(*globe.root);
-    letOsgCull(true);
-    EXPECT_EQ(installBins(*clone, CullOptions()), 32u);
-    letOsgCull(false);
-    EXPECT_LT(tilesDrawn(*clone, downTo(22.5, -22.5)), 8u);
+    const auto drawnOf = [&](osg::Node& scene) {
+        return cull(scene, downTo(22.5, -22.5), *globe.visitor, ++globe.frame).drawn.size();
+    };
+    EXPECT_LT(drawnOf(*globe.root), 8u);
+    EXPECT_EQ(drawnOf(*clone), 32u);
 }
 
 // An application's callback in front of the bin's: the clones of its node share both.

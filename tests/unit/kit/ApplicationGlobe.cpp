@@ -6,15 +6,25 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osgDB/WriteFile>
+#include <osgTerrain/TerrainTile>
 #include <osgUtil/UpdateVisitor>
+
+#include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
 
 osg::Drawable* drawableOf(osg::Node& node) {
     if (osg::Drawable* drawable = node.asDrawable()) return drawable;
+    if (auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
+        struct First : osg::NodeVisitor {
+            First() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+            void apply(osg::Drawable& drawable) override { first = &drawable; }
+            osg::Drawable* first = nullptr;
+        } visitor;
+        if (tile->getTerrainTechnique()) tile->getTerrainTechnique()->traverse(visitor);
+        return visitor.first;
+    }
     osg::Group* group = node.asGroup();
     return group && group->getNumChildren() > 0 ? drawableOf(*group->getChild(0)) : nullptr;
 }
@@ -29,14 +39,8 @@ osg::ref_ptr<osg::MatrixTransform> makeTower(const osg::Vec3d& place, float size
     for (const osg::Vec3& v : {osg::Vec3(-1, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 1)}) {
         vertices->push_back(v * size);
     }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(geometry);
-    osg::ref_ptr<osg::MatrixTransform> tower = new osg::MatrixTransform(osg::Matrixd::translate(place));
-    tower->addChild(geode);
-    return tower;
+    const osg::ref_ptr<osg::Geometry> tower = makeGeometry(vertices, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    return placed(tower, osg::Matrixd::translate(place));
 }
 
 CullView downTo(double latitude, double longitude, double altitude, double fovDeg) {

@@ -22,7 +22,8 @@
 
 namespace osgAnalyticBin::test {
 
-/// The first drawable below a node. Returns: nullptr when there is none.
+/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr when there
+/// is none.
 [[nodiscard]] osg::Drawable* drawableOf(osg::Node& node);
 
 /// Runs an update traversal.

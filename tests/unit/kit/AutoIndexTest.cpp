@@ -211,14 +211,42 @@ TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     EXPECT_FALSE(isIndexAwaited(*_scene));
 }
 
-// Says that the files of a tile are requested.
+// Stands for the DatabasePager: notes which files are requested, and by which nodes.
 struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
-    void requestNodeFile(const std::string& file, osg::NodePath&, float, const osg::FrameStamp*,
-                         osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
+    void requestNodeFile(const std::string& file, osg::NodePath& path, float, const osg::FrameStamp*,
+                         osg::ref_ptr<osg::Referenced>& request, const osg::Referenced*) override {
         files.insert(file);
+        nodes.insert(path.back());
+        if (!request) request = new osg::Referenced;
     }
     std::set<std::string> files;
+    std::set<const osg::Node*> nodes;
 };
+
+// Also in a viewer whose time stands still, and in one that draws a single frame.
+TEST(DeclaredBins, RequestAllFilesInTheFirstView) {
+    struct Globe : MeshGlobe {
+        Globe() {
+            visitor->setDatabaseRequestHandler(requests);
+            // just due, and long overdue
+            for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i]->setRange(1, 0.0F, i % 2 ? 1e8F : 8e6F);
+        }
+        void look() {
+            const osg::Vec3d eye = ecefDeg(22.5, 0.0, 3e6);
+            (void)cull(*scene, CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 120.0), *visitor, ++frame);
+        }
+        osg::ref_ptr<Requests> requests = new Requests;
+    } stock, globe;
+    installBins(*globe.root);
+    stock.look();
+    globe.look();
+    const std::size_t requested = globe.requests->nodes.size();
+    EXPECT_GT(requested, 6u);
+    for (std::size_t i = 0; i < stock.tiles.size(); ++i)
+        EXPECT_LE(globe.requests->nodes.count(globe.tiles[i]), stock.requests->nodes.count(stock.tiles[i])) << i;
+    globe.look();
+    EXPECT_EQ(globe.requests->nodes.size(), requested) << "none was left for later";
+}
 
 // A plain of so many degrees on a globe: its files may hold any terrain on earth.
 struct PlainGlobe : MeshGlobe {

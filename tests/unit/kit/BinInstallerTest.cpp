@@ -100,41 +100,6 @@ TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
     EXPECT_EQ(installBins(*db.root), 1u);
 }
 
-TEST(BinInstaller, KeepsCallbacksThatWereThereAndRunsThem) {
-    Database db;
-    std::set<std::string> visited;
-    const osg::ref_ptr<test::VisitRecorder> user = new test::VisitRecorder("user", visited);
-    db.tile->setCullCallback(user.get());
-    installBins(*db.root);
-    ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*db.root, test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0), *visitor);
-    EXPECT_EQ(visited.size(), 1u);
-}
-
-TEST(BinInstaller, RunningItAgainReplacesAndRunningItWithSpheresUndoes) {
-    Database db;
-    std::set<std::string> visited;
-    const osg::ref_ptr<test::VisitRecorder> user = new test::VisitRecorder("user", visited);
-    db.tile->setCullCallback(user.get());
-    installBins(*db.root);
-    CullOptions exact;
-    exact.method = Method::Exact;
-    EXPECT_EQ(installBins(*db.root, exact), 1u);
-    ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->getCullOptions().method, Method::Exact);
-    EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
-    EXPECT_EQ(user->getNestedCallback(), nullptr);
-
-    CullOptions sphere;
-    sphere.method = Method::Sphere;
-    EXPECT_EQ(installBins(*db.root, sphere), 0u);
-    EXPECT_EQ(db.tile->getCullCallback(), user.get());
-    EXPECT_TRUE(db.tile->getCullingActive());
-    EXPECT_TRUE(db.mesh->getCullingActive());
-}
-
 // In the frames of transforms, too, while OSG tests what is beside as always.
 TEST(BinInstaller, MethodNoneCullsNothingBelowItsNode) {
     Database db;
@@ -174,19 +139,6 @@ TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     EXPECT_EQ(callbackOf(*tile)->getLocalToEcef(),
               osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
     EXPECT_TRUE(callbackOf(*db.tile)->getLocalToEcef().isIdentity());
-}
-
-TEST(BinInstaller, LeavesTilesUnderMovingTransformsAlone) {
-    Database db;
-    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
-    moving->setDataVariance(osg::Object::DYNAMIC);
-    const osg::ref_ptr<osg::Group> tile = new osg::Group;
-    setStoredBin(*tile, kBin);
-    moving->addChild(tile);
-    db.root->addChild(moving);
-    EXPECT_EQ(installBins(*db.root), 1u);
-    EXPECT_EQ(tile->getCullCallback(), nullptr);
-    EXPECT_TRUE(tile->getCullingActive());
 }
 
 TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
@@ -254,18 +206,6 @@ TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
     const core::Interval altitude = callbackOf(*tile)->getBin().bin().altitude();
     EXPECT_GE(altitude.upper, 8849.0 * kFeet);
     EXPECT_LE(altitude.lower, -10935.0 * kFeet);
-}
-
-TEST(BinInstaller, LeavesGeometryThatIsNoTerrainAlone) {
-    Database db;
-    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    osg::ref_ptr<osg::Geometry> satellite = makeTriangle();
-    for (osg::Vec3& v : *static_cast<osg::Vec3Array*>(satellite->getVertexArray())) v *= 1.5f;
-    paged->addChild(satellite, 0.0f, 1e10f);
-    db.root->addChild(paged);
-    EXPECT_EQ(installBins(*db.root), 1u);
-    EXPECT_EQ(paged->getCullCallback(), nullptr);
-    EXPECT_TRUE(paged->getCullingActive());
 }
 
 // In one line each.

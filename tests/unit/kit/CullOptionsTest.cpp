@@ -8,136 +8,123 @@
 namespace osgAnalyticBin {
 namespace {
 
+CullOptions parsed(const std::string& text) {
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    EXPECT_TRUE(options) << error;
+    return options.value_or(CullOptions());
+}
+
 TEST(CullOptions, EmptyTextIsTheDefault) {
-    std::string error;
-    const auto options = cullOptionsFromText("", error);
-    ASSERT_TRUE(options);
-    EXPECT_EQ(options->method, Method::Quadratic);
-    EXPECT_EQ(options->expiry, 3.0);
-}
-
-TEST(CullOptions, ExpiryReadsBack) {
-    std::string error;
-    for (const double seconds : {0.0, 0.1, 3.0, 86400.0}) {
-        CullOptions options;
-        options.expiry = seconds;
-        const auto back = cullOptionsFromText(toText(options), error);
-        ASSERT_TRUE(back) << error;
-        EXPECT_EQ(back->expiry, seconds);
+    for (const char* text : {"", "method=quadratic expiry=3,occlusion=auto;horizon=declared,edges=on",
+                             "skirts=cracks,cluster=replace,index=auto"}) {
+        EXPECT_TRUE(parsed(text) == CullOptions()) << text;
     }
-    EXPECT_EQ(cullOptionsFromText("method=exact,expiry=7.5", error)->expiry, 7.5);
-    for (const char* text : {"expiry=-1", "expiry=long", "expiry=nan", "expiry=86401", "expiry"}) {
-        EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
-        EXPECT_NE(error.find("expiry"), std::string::npos) << error;
-    }
-}
-
-TEST(CullOptions, EveryMethodReadsBack) {
-    for (const Method method : {Method::Quadratic, Method::Exact, Method::Sphere, Method::None}) {
-        CullOptions options;
-        options.method = method;
-        std::string error;
-        const auto back = cullOptionsFromText(toText(options), error);
-        ASSERT_TRUE(back) << error;
-        EXPECT_EQ(back->method, method);
-        EXPECT_EQ(back->horizonUse, HorizonUse::Declared);
-        EXPECT_TRUE(back->edges);
-    }
-}
-
-TEST(CullOptions, OcclusionReadsBack) {
-    std::string error;
+    EXPECT_EQ(CullOptions().method, Method::Quadratic);
+    EXPECT_EQ(CullOptions().expiry, 3.0);
     EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Auto);
-    for (const OcclusionUse use : {OcclusionUse::Off, OcclusionUse::On, OcclusionUse::Auto}) {
-        CullOptions options;
-        options.occlusion = use;
-        EXPECT_EQ(cullOptionsFromText(toText(options), error)->occlusion, use);
-    }
-    EXPECT_EQ(cullOptionsFromText("occlusion=auto", error)->occlusion, OcclusionUse::Auto);
-    for (const char* text : {"occlusion=maybe", "occlusion"}) {
-        EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
-        EXPECT_NE(error.find("use occlusion=on|off|auto"), std::string::npos) << error;
+}
+
+TEST(CullOptions, OfAllItemsReadBackAndDifferFromTheDefault) {
+    for (const char* item : {"method=exact",
+                             "method=sphere",
+                             "method=none",
+                             "horizon=off",
+                             "horizon=-500.25",
+                             "inheritviewpoint=on",
+                             "edges=off",
+                             "expiry=0",
+                             "expiry=0.1",
+                             "expiry=86400",
+                             "skirts=all",
+                             "cluster=keep",
+                             "heights=-500.5..9000",
+                             "heights=-11500..8000",
+                             "techniquemargin=0",
+                             "techniqueMargin=50",
+                             "index=off",
+                             "index=on",
+                             "occlusion=off",
+                             "occlusion=on",
+                             "globe=wgs84",
+                             "globe=1738100/1736000",
+                             "ground=BTGTerrainGroup"}) {
+        const CullOptions options = parsed(item);
+        EXPECT_FALSE(options == CullOptions()) << item;
+        EXPECT_TRUE(parsed(toText(options)) == options) << item;
     }
 }
 
-TEST(CullOptions, HorizonAndEdgesReadBack) {
-    std::string error;
-    for (const char* text : {"horizon=-500.25 edges=off", "horizon=off", "horizon=declared,edges=on"}) {
-        const auto options = cullOptionsFromText(text, error);
-        ASSERT_TRUE(options) << error;
-        const auto back = cullOptionsFromText(toText(*options), error);
-        ASSERT_TRUE(back) << error;
-        EXPECT_EQ(back->horizonUse, options->horizonUse);
-        EXPECT_EQ(back->horizon, options->horizon);
-        EXPECT_EQ(back->edges, options->edges);
-    }
-    EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
-}
-
-TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
-    std::string error;
-    const auto options =
-        cullOptionsFromText("skirts=all,cluster=keep,heights=-500.5..9000,techniqueMargin=50,index=off", error);
-    ASSERT_TRUE(options) << error;
-    const auto back = cullOptionsFromText(toText(*options), error);
-    ASSERT_TRUE(back) << error;
-    EXPECT_EQ(back->skirts, SkirtUse::All);
-    EXPECT_EQ(back->cluster, ClusterUse::Keep);
-    EXPECT_EQ(back->heights, (core::Interval{-500.5, 9000.0}));
-    EXPECT_EQ(back->techniqueMargin, 50.0);
-    EXPECT_EQ(back->index, IndexUse::Off);
-    EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=auto", error)), toText(CullOptions()));
-}
-
-TEST(CullOptions, WhatAnApplicationSaysOfItsTilesReadsBack) {
-    std::string error;
-    const auto options = cullOptionsFromText("globe=1738100/1736000,ground=BTGTerrainGroup", error);
-    ASSERT_TRUE(options) << error;
-    const auto back = cullOptionsFromText(toText(*options), error);
-    ASSERT_TRUE(back) << error;
-    ASSERT_TRUE(back->globe);
-    EXPECT_EQ(back->globe->equatorialRadius(), 1738100.0);
-    EXPECT_EQ(back->globe->polarRadius(), 1736000.0);
-    EXPECT_EQ(back->ground, "BTGTerrainGroup");
-    EXPECT_NE(toText(*cullOptionsFromText("globe=WGS84", error)).find("globe=wgs84"), std::string::npos);
+TEST(CullOptions, MeanWhatTheySay) {
+    const CullOptions options = parsed("method=none expiry=1.5,method=exact,horizon=-500,heights=-500.5..9000");
+    EXPECT_EQ(options.method, Method::Exact) << "later items win";
+    EXPECT_EQ(options.expiry, 1.5);
+    EXPECT_EQ(options.horizonUse, HorizonUse::Given);
+    EXPECT_EQ(options.horizon, -500.0);
+    EXPECT_EQ(options.heights, (core::Interval{-500.5, 9000.0}));
+    ASSERT_TRUE(parsed("globe=1738100/1736000").globe);
+    EXPECT_EQ(parsed("globe=1738100/1736000").globe->equatorialRadius(), 1738100.0);
+    EXPECT_EQ(parsed("globe=1738100/1736000").globe->polarRadius(), 1736000.0);
+    EXPECT_NE(toText(parsed("globe=WGS84")).find("globe=wgs84"), std::string::npos);
     CullOptions unreadable;
     unreadable.ground = "two words";
     EXPECT_EQ(toText(unreadable), toText(CullOptions()));
 }
 
-TEST(CullOptions, AreEqualInAllItemsOrNot) {
-    std::string error;
-    for (const char* item : {"method=exact", "horizon=off", "horizon=-500", "inheritviewpoint=on", "edges=off",
-                             "expiry=5", "skirts=all", "cluster=keep", "heights=-500..9000", "heights=-11500..8000",
-                             "techniquemargin=0", "index=off", "globe=wgs84", "ground=Ground"}) {
-        const auto options = cullOptionsFromText(item, error);
-        ASSERT_TRUE(options) << error;
-        EXPECT_FALSE(*options == CullOptions()) << item;
-        EXPECT_TRUE(*options == *cullOptionsFromText(item, error)) << item;
-    }
-}
-
-TEST(CullOptions, LaterItemsWin) {
-    std::string error;
-    const auto options = cullOptionsFromText("method=none expiry=1.5,method=exact", error);
-    ASSERT_TRUE(options);
-    EXPECT_EQ(options->method, Method::Exact);
-    EXPECT_EQ(options->expiry, 1.5);
-}
-
-TEST(CullOptions, WhatIsWrongIsNamed) {
-    const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},        {"method", "bad method"}, {"expiry=big", "big"},  {"colour=red", "colour"},
-        {"expiry=1.1x", "1.1x"},        {"Meth=exact", "meth"},   {"horizon=low", "low"}, {"horizon=1e9", "1e9"},
-        {"edges=maybe", "maybe"},       {"skirts=none", "none"},  {"cluster=off", "off"}, {"heights=9", "9"},
-        {"heights=3..1", "3..1"},       {"heights=a..b", "a..b"}, {"index=x", "x"},       {"techniquemargin=-1", "-1"},
-        {"techniquemargin=inf", "inf"}, {"globe=mars", "mars"},   {"globe=0/1", "0/1"},   {"globe=6e6", "6e6"},
-        {"ground=", "ground"}};
+TEST(CullOptions, WhatIsWrongIsNamedInOneLine) {
+    const std::pair<const char*, const char*> cases[] = {{"method=cube", "cube"},
+                                                         {"method", "bad method"},
+                                                         {"expiry=big", "expiry"},
+                                                         {"expiry=-1", "expiry"},
+                                                         {"expiry=nan", "expiry"},
+                                                         {"expiry=86401", "expiry"},
+                                                         {"expiry", "expiry"},
+                                                         {"colour=red", "colour"},
+                                                         {"expiry=1.1x", "1.1x"},
+                                                         {"Meth=exact", "meth"},
+                                                         {"horizon=low", "low"},
+                                                         {"horizon=1e9", "1e9"},
+                                                         {"edges=maybe", "maybe"},
+                                                         {"skirts=none", "none"},
+                                                         {"cluster=off", "off"},
+                                                         {"heights=9", "9"},
+                                                         {"heights=3..1", "3..1"},
+                                                         {"heights=a..b", "a..b"},
+                                                         {"index=x", "x"},
+                                                         {"techniquemargin=-1", "-1"},
+                                                         {"techniquemargin=inf", "inf"},
+                                                         {"globe=mars", "mars"},
+                                                         {"globe=0/1", "0/1"},
+                                                         {"globe=6e6", "6e6"},
+                                                         {"ground=", "ground"},
+                                                         {"occlusion=maybe", "use on, off or auto"},
+                                                         {"occlusion", "use on, off or auto"},
+                                                         // where the methods for comparison went
+                                                         {"method=paper", "osgbinbench --methods paper"},
+                                                         {"method=box", "osgbinbench --methods box"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
         EXPECT_NE(error.find(named), std::string::npos) << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
+}
+
+// The altitudes that stand for terrain of which nothing is known have to hold the earth's own. Source of the heights:
+// those that are published, above mean sea level.
+constexpr double kEverest = 8848.86;            // survey of Nepal and China, 2020
+constexpr double kChallengerDeep = -11034.0;    // the deepest sounding that was ever claimed, Vityaz 1957
+constexpr double kHighestMeanSeaLevel = 86.0;   // above the ellipsoid, EGM2008, near New Guinea
+constexpr double kLowestMeanSeaLevel = -107.0;  // the same, south of India
+
+TEST(HeightsOnEarth, HoldTheHighestMountainAndTheDeepestSea) {
+    constexpr core::Interval kHeld = CullOptions::kTerrainOnEarth;
+    EXPECT_GE(kHeld.upper, kEverest + kHighestMeanSeaLevel);
+    EXPECT_LE(kHeld.lower, kChallengerDeep + kLowestMeanSeaLevel);
+    // and not so much more that bins and horizons lose by it
+    EXPECT_LE(kHeld.upper, kEverest + 500.0);
+    EXPECT_GE(kHeld.lower, kChallengerDeep - 1000.0);
+    EXPECT_EQ(CullOptions().heights, kHeld);
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include <osgDB/WriteFile>
 #include <osgTerrain/Layer>
 
+#include <support/GridMesh.h>
+
 namespace osgAnalyticBin::test {
 
 core::GeodeticBin extentsDeg(double south, double north, double west, double east) {
@@ -27,8 +29,7 @@ osg::ref_ptr<osgTerrain::TerrainTile> makeFlatTile(const core::GeodeticBin& exte
     return tile;
 }
 
-osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height) {
-    constexpr unsigned int kPosts = 9;
+osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height, unsigned int posts) {
     const osg::EllipsoidModel wgs84;
     const auto at = [&](double v, double u) {
         osg::Vec3d ecef;
@@ -39,25 +40,10 @@ osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents
     };
     const osg::Vec3d center = at(0.5, 0.5);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (unsigned int j = 0; j < kPosts; ++j)
-        for (unsigned int i = 0; i < kPosts; ++i)
-            vertices->push_back(osg::Vec3(at(j / (kPosts - 1.0), i / (kPosts - 1.0)) - center));
-    for (unsigned int j = 0; j + 1 < kPosts; ++j) {
-        for (unsigned int i = 0; i + 1 < kPosts; ++i) {
-            const unsigned int a = j * kPosts + i;
-            for (const unsigned int index : {a, a + 1u, a + kPosts + 1u, a, a + kPosts + 1u, a + kPosts})
-                triangles->push_back(index);
-        }
-    }
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(triangles);
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(geometry);
-    osg::ref_ptr<osg::MatrixTransform> mesh = new osg::MatrixTransform(osg::Matrixd::translate(center));
-    mesh->addChild(geode);
-    return mesh;
+    for (unsigned int j = 0; j < posts; ++j)
+        for (unsigned int i = 0; i < posts; ++i)
+            vertices->push_back(osg::Vec3(at(j / (posts - 1.0), i / (posts - 1.0)) - center));
+    return placed(makeGeometry(vertices, gridTriangles(posts)), osg::Matrixd::translate(center));
 }
 
 osg::ref_ptr<osg::PagedLOD> makePaged(osg::Node* mesh, const std::string& file, float cutoff) {

@@ -24,8 +24,9 @@ namespace osgAnalyticBin::test {
 [[nodiscard]] osg::ref_ptr<osgTerrain::TerrainTile> makeFlatTile(const core::GeodeticBin& extents, float height,
                                                                  float skirt = 0.0f);
 
-/// A mesh of one height: a transform to the middle of the tile, a Geode and a Geometry with 9 x 9 posts.
-[[nodiscard]] osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height);
+/// A mesh of one height: a transform to the middle of the tile, a Geode and a Geometry with posts on a square grid.
+[[nodiscard]] osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height,
+                                                              unsigned int posts = 9);
 
 /// A mesh, and a file for what is nearer than `cutoff` metres to the mesh's middle.
 [[nodiscard]] osg::ref_ptr<osg::PagedLOD> makePaged(osg::Node* mesh, const std::string& file, float cutoff = 1e6f);

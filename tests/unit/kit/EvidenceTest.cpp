@@ -68,19 +68,6 @@ TEST(Evidence, IsMissingInAStateOfTheApplicationsClass) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
-// They may change its vertices or leave it out; where they do in their own time cannot be known.
-TEST(Evidence, IsMissingForADrawableThatACallbackMayChange) {
-    for (const bool isUpdate : {false, true}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
-        EXPECT_FALSE(globe.drawsAntipode());
-        osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
-        if (isUpdate) geometry.setUpdateCallback(new osg::DrawableUpdateCallback);
-        if (!isUpdate) geometry.setEventCallback(new osg::DrawableEventCallback);
-        EXPECT_TRUE(globe.drawsAntipode()) << isUpdate;
-    }
-}
-
 TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     // above all posts, and between them, where the mesh sags
     for (const double altitude : {4000.0, -1000.0}) {

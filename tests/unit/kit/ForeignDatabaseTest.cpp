@@ -207,12 +207,6 @@ TEST(ClusterCulling, StaysWhereItIsToBeKept) {
     EXPECT_EQ(typeid(*tile.first->getNestedCallback()), typeid(osg::ClusterCullingCallback));
 }
 
-TEST(ClusterCulling, RestsWithMethodNone) {
-    ClusterTile tile;
-    installBins(*tile.root, withMethod(Method::None));
-    EXPECT_EQ(tile.reached(), kAll);
-}
-
 TEST(ClusterCulling, IsSavedAsWhatItWas) {
     const TemporaryFolder folder;
     ClusterTile tile;

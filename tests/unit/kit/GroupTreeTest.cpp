@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view.
+// Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view. And the records
+// of tiles that they go by, which pager threads and cull threads doubt while the update traversal makes families.
 
 #include "../../../osgAnalyticBin/src/kit/CallbackChain.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileFamily.h"
+#include "../../../osgAnalyticBin/src/kit/tile/InstalledTile.h"
 #include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
 
@@ -13,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -150,6 +154,52 @@ TEST(GroupTree, SeesThroughAHoleWhereGroupsWere) {
         update(*tree.root);
         EXPECT_TRUE(tree.drawsAntipode()) << isHalf << isReplaced;
     }
+}
+
+class InstalledTiles : public ::testing::Test {
+protected:
+    InstalledTiles() {
+        join();
+        _other = std::thread([this] {
+            while (!_isOver.load()) {
+                tile->doubt(InstalledTile::MeshUnread);
+                tile->settle(InstalledTile::MeshUnread);
+            }
+        });
+    }
+    ~InstalledTiles() override {
+        _isOver.store(true);
+        _other.join();
+    }
+
+    void join() {
+        block = new TileBlock(1);
+        tile->joinFamily(*block, 0);
+        tile->fillSlot({}, {});
+    }
+    [[nodiscard]] bool isBelieved() const { return block->partFrom(0).believed.load() != 0; }
+
+    const osg::ref_ptr<InstalledDatabase> database = new InstalledDatabase(new osg::EllipsoidModel);
+    const osg::ref_ptr<InstalledTile> tile = new InstalledTile(*database, nullptr, "", 0);
+    osg::ref_ptr<TileBlock> block;
+
+private:
+    std::atomic<bool> _isOver{false};
+    std::thread _other;
+};
+
+TEST_F(InstalledTiles, AreNotBelievedWhileTheyAreDoubtedWhateverElseIsSettled) {
+    int believed = 0;
+    for (int i = 0; i < 20000; ++i) {
+        tile->doubt(InstalledTile::Outgrown);
+        for (int look = 0; look < 8; ++look) believed += isBelieved() ? 1 : 0;
+        tile->settle(InstalledTile::Outgrown);
+    }
+    EXPECT_EQ(believed, 0);
+}
+
+TEST_F(InstalledTiles, AreDoubtedWhileTheirFamiliesAreMadeAnew) {
+    for (int i = 0; i < 20000; ++i) join();
 }
 
 }  // namespace

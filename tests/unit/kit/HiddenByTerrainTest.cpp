@@ -75,17 +75,6 @@ TEST(HiddenByTerrain, DrawsWhatReachesOverARidge) {
     }
 }
 
-TEST(HiddenByTerrain, AsksForAMovingModelWhereItIs) {
-    ModelsOnGlobe globe;
-    const auto model = globe.add(kBehindRidge);
-    const std::vector<std::pair<osg::Vec3d, bool>> way{
-        {kBehindRidge, false}, {kAboveRidge, true}, {kBehindRidge, false}, {kBeforeRidge, true}};
-    for (const auto& [at, isDrawn] : way) {
-        model->setMatrix(osg::Matrixd::translate(at));
-        EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isDrawn);
-    }
-}
-
 // A globe of large tiles, seen from above, and models on it.
 struct ModelsOnRoundGlobe : MeshGlobe {
     explicit ModelsOnRoundGlobe(const CullOptions& options, double altitude = 0.0) : MeshGlobe(altitude) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "CountedReads.h"
+
 #include <osg/Group>
 #include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
@@ -53,25 +55,20 @@ private:
 };
 
 /// Reads as OSG does, and puts a probe above what it has read.
-class ProbingReader : public osgDB::ReadFileCallback {
+class ProbingReader : public CountedReads {
 public:
     osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
-        osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNodeImplementation(name, options);
+        osgDB::ReaderWriter::ReadResult result = CountedReads::readNode(name, options);
         if (!result.validNode()) return result;
         const osg::ref_ptr<InstallerProbe> probe = new InstallerProbe(visits);
         probe->addChild(result.getNode());
         const std::lock_guard<std::mutex> lock(_mutex);
-        files.push_back(name);
-        if (keepsOne) {
-            if (!_kept) _kept = probe;
-            return _kept.get();
-        }
-        return probe.get();
+        if (!_kept && keepsOne) _kept = probe;
+        return keepsOne ? _kept.get() : probe.get();
     }
 
     bool keepsOne = false;  // hands out the same node always, as a cache of the user's would
     InstallerVisits visits;
-    std::vector<std::string> files;
 
 private:
     std::mutex _mutex;

@@ -20,6 +20,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <support/CapturedNotes.h>
+#include <support/GridMesh.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -35,14 +36,9 @@ osg::ref_ptr<osg::Node> meshTile(const osg::Vec3d& corner, double height) {
     const double step = kSize / (kPosts - 1);
     for (unsigned int i = 0; i < kPosts * kPosts; ++i)
         vertices->push_back(osg::Vec3d(step * (i % kPosts) - 0.5 * kSize, step * (i / kPosts) - 0.5 * kSize, height));
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(gridTriangles(kPosts));
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(geometry);
-    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(middle));
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, gridTriangles(kPosts));
+    const osg::ref_ptr<osg::MatrixTransform> transform = placed(geometry, osg::Matrixd::translate(middle));
     transform->setDataVariance(osg::Object::STATIC);
-    transform->addChild(geode);
     return transform;
 }
 
@@ -90,24 +86,9 @@ struct RidgeMap : MeshGlobe {
     }
     [[nodiscard]] bool drawsTile(std::size_t i, const CullView& view = alongRow()) {
         update(*root);
-        return cull(*root, view, *visitor, ++frame).drawn.count(drawable(*row[i]->getChild(0))) > 0;
+        return cull(*root, view, *visitor, ++frame).drawn.count(drawableOf(*row[i])) > 0;
     }
     [[nodiscard]] bool drawsFarTile(const CullView& view = alongRow()) { return drawsTile(4, view); }
-    // as osgTerrain made it last
-    [[nodiscard]] static const osg::Drawable* drawable(osg::Node& mesh) {
-        struct First : osg::NodeVisitor {
-            First() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-            void apply(osg::Drawable& drawable) override { first = &drawable; }
-            const osg::Drawable* first = nullptr;
-        } first;
-        auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(&mesh);
-        if (!tile) {
-            mesh.accept(first);
-        } else if (tile->getTerrainTechnique()) {
-            tile->getTerrainTechnique()->traverse(first);
-        }
-        return first.first;
-    }
     [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
 
     std::vector<osg::ref_ptr<osg::PagedLOD>> row;

@@ -58,17 +58,7 @@ struct TerrainGlobe {
         CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1, 1.0, 1000.0), {1, 0, 0}, 30.0);
         view.projection = osg::Matrixd::perspective(30.0, 1.0, nearPlane, 1e8);
         update(*terrain);
-        return cull(*terrain, view, *visitor, ++frame).drawn.count(drawable(*row[4])) > 0;
-    }
-    // as the technique made it last
-    [[nodiscard]] static const osg::Drawable* drawable(TerrainTile& tile) {
-        struct First : osg::NodeVisitor {
-            First() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-            void apply(osg::Drawable& drawable) override { first = &drawable; }
-            const osg::Drawable* first = nullptr;
-        } first;
-        if (tile.getTerrainTechnique()) tile.getTerrainTechnique()->traverse(first);
-        return first.first;
+        return cull(*terrain, view, *visitor, ++frame).drawn.count(drawableOf(*row[4])) > 0;
     }
     [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
 
@@ -258,7 +248,7 @@ TEST(OccludingTerrainTiles, AreDrawnWhereTheyHaveRisenOutOfTheirBins) {
             const auto isDrawn = [&] {
                 update(*globe.terrain);
                 const CullResult result = cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
-                return result.drawn.count(globe.drawable(*globe.row[8])) > 0;
+                return result.drawn.count(drawableOf(*globe.row[8])) > 0;
             };
             EXPECT_FALSE(isDrawn());
             setHeights(*globe.row[8], 8000.0f / scale);
@@ -277,7 +267,7 @@ TEST(OccludingTerrainTiles, ThatHaveSunkLowerTheHorizon) {
     const auto isDrawn = [&] {
         update(*globe.terrain);
         const CullResult result = cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
-        return result.drawn.count(globe.drawable(*globe.row[9])) > 0;
+        return result.drawn.count(drawableOf(*globe.row[9])) > 0;
     };
     EXPECT_FALSE(isDrawn());
     for (std::size_t i = 3; i < 9; ++i) {

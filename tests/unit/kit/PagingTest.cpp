@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD.
+// Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD. How long the pager
+// keeps those out of view: its own rule, and CullOptions::expiry; time is simulated.
 
+#include "CountedReads.h"
+#include "DatabaseFixture.h"
 #include "InstallerProbe.h"
 #include "PagedFlight.h"
 
@@ -25,7 +28,6 @@
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <thread>
-#include <unistd.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -36,12 +38,9 @@ using core::GeodeticBin;
 const AnalyticBin kPagedBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 
 osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
-    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(new osg::Vec3Array(300));
-    paged->addChild(geometry, 1e6f, 1e10f);
-    paged->setFileName(1, fileName);
-    paged->setRange(1, 0.0f, 1e6f);
+    osg::ref_ptr<osg::PagedLOD> paged = test::makePaged(geometry, fileName);
     setStoredBin(*paged, kPagedBin);
     return paged;
 }
@@ -53,20 +52,16 @@ osgDB::Options* optionsOf(osg::PagedLOD& paged) {
 class Paging : public ::testing::Test {
 protected:
     void SetUp() override {
-        _folder = fs::temp_directory_path() / ("osganalyticbin_paging_" + std::to_string(::getpid()));
-        fs::create_directories(_folder);
         osg::ref_ptr<osg::Group> children = new osg::Group;
         children->addChild(makePagedTile("grandchildren.osgb"));
         ASSERT_TRUE(osgDB::writeNodeFile(*children, file("children.osgb")));
         _root->addChild(_paged);
     }
-    void TearDown() override { fs::remove_all(_folder); }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return (_folder / name).string(); }
+    [[nodiscard]] std::string file(const std::string& name) const { return _folder / name; }
 
     osg::ref_ptr<osg::Node> readChildren() { return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged)); }
 
-    fs::path _folder;
+    test::TemporaryFolder _folder;
     osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
     osg::ref_ptr<osg::PagedLOD> _paged = makePagedTile("children.osgb");
 };
@@ -90,86 +85,29 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     EXPECT_NE(optionsOf(*tile)->getReadFileCallback(), nullptr);
 }
 
-class CountingReader : public osgDB::ReadFileCallback {
-public:
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
-        ++count;
-        return osgDB::Registry::instance()->readNodeImplementation(name, options);
+// As OSG has it: the options' own comes before the Registry's.
+TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
+    for (const bool hasOwn : {true, false}) {
+        const osg::ref_ptr<test::CountedReads> own = new test::CountedReads, registrys = new test::CountedReads;
+        const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
+        if (hasOwn) users->setReadFileCallback(own);
+        _paged->setDatabaseOptions(users);
+        osgDB::Registry::instance()->setReadFileCallback(registrys);
+        installBins(*_root);
+        installBins(*_root);  // twice must not chain twice
+        EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
+        const osg::ref_ptr<osg::Node> children = readChildren();
+        osgDB::Registry::instance()->setReadFileCallback(nullptr);
+        ASSERT_TRUE(children);
+        EXPECT_EQ(own->total(), hasOwn ? 1 : 0);
+        EXPECT_EQ(registrys->total(), hasOwn ? 0 : 1);
+        EXPECT_EQ(users->getReadFileCallback(), hasOwn ? own.get() : nullptr) << "theirs is not changed";
+        removeBins(*_root);
     }
-    int count = 0;
-};
-
-TEST_F(Paging, AUsersReadFileCallbackAndOptionsStillWork) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
-    users->setReadFileCallback(reader.get());
-    _paged->setDatabaseOptions(users.get());
-    installBins(*_root);
-    installBins(*_root);  // twice must not chain twice
-    EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
-    EXPECT_EQ(users->getReadFileCallback(), reader.get());  // theirs is not changed
-    ASSERT_TRUE(readChildren());
-    EXPECT_EQ(reader->count, 1);
-}
-
-TEST_F(Paging, TheRegistrysReadFileCallbackStillWorks) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    osgDB::Registry::instance()->setReadFileCallback(reader.get());
-    installBins(*_root);
-    const osg::ref_ptr<osg::Node> children = readChildren();
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    ASSERT_TRUE(children);
-    EXPECT_EQ(reader->count, 1);
-}
-
-// As OSG has it.
-TEST_F(Paging, AUsersReadFileCallbackWinsOverTheRegistrys) {
-    const osg::ref_ptr<CountingReader> own = new CountingReader;
-    const osg::ref_ptr<CountingReader> registrys = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options;
-    users->setReadFileCallback(own.get());
-    _paged->setDatabaseOptions(users.get());
-    osgDB::Registry::instance()->setReadFileCallback(registrys.get());
-    installBins(*_root);
-    const osg::ref_ptr<osg::Node> children = readChildren();
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    ASSERT_TRUE(children);
-    EXPECT_EQ(own->count, 1);
-    EXPECT_EQ(registrys->count, 0);
 }
 
 AnalyticBinCullCallback* firstCallback(osg::Node* file) {
     return file ? dynamic_cast<AnalyticBinCullCallback*>(file->asGroup()->getChild(0)->getCullCallback()) : nullptr;
-}
-
-TEST_F(Paging, GlobesOfOneSceneKeepTheirEllipsoidsAndOptionsApart) {
-    const osg::ref_ptr<CountingReader> reader = new CountingReader;
-    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("shared=by both");
-    users->setReadFileCallback(reader.get());
-    const osg::ref_ptr<osg::CoordinateSystemNode> mars = new osg::CoordinateSystemNode;
-    mars->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
-    const osg::ref_ptr<osg::PagedLOD> marsTile = makePagedTile("children.osgb");
-    mars->addChild(marsTile);
-    _paged->setDatabaseOptions(users);
-    marsTile->setDatabaseOptions(users);
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->addChild(_root);
-    scene->addChild(mars);
-    installBins(*scene);
-    CullOptions exact;
-    exact.method = Method::Exact;
-    installBins(*mars, exact);
-
-    const osg::ref_ptr<osg::Node> here = readChildren();
-    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*marsTile));
-    ASSERT_NE(firstCallback(here), nullptr);
-    ASSERT_NE(firstCallback(there), nullptr);
-    EXPECT_NE(firstCallback(here)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(firstCallback(there)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(firstCallback(here)->getCullOptions().method, Method::Quadratic);
-    EXPECT_EQ(firstCallback(there)->getCullOptions().method, Method::Exact);
-    EXPECT_EQ(reader->count, 2);
-    EXPECT_EQ(optionsOf(*marsTile)->getOptionString(), "shared=by both");
 }
 
 TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
@@ -178,8 +116,8 @@ TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
     moved->addChild(tile);
     _root->addChild(moved);
     // the same file, in two places
-    _paged->setDatabasePath(_folder.string());
-    tile->setDatabasePath(_folder.string());
+    _paged->setDatabasePath(_folder.path());
+    tile->setDatabasePath(_folder.path());
     ASSERT_EQ(_paged->getDatabasePath() + _paged->getFileName(1), file("children.osgb"));
     installBins(*_root);
     const osg::ref_ptr<osg::Node> here = readChildren();
@@ -197,7 +135,7 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
     tile->setDatabasePath("http://server/there");
     moved->addChild(tile);
     _root->addChild(moved);
-    const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache((_folder / "cache").string());
+    const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache(_folder / "cache");
     const std::string copy = cache->createCacheFileName(tile->getDatabasePath() + "children.osgb");
     fs::create_directories(fs::path(copy).parent_path());
     fs::copy(file("children.osgb"), copy);
@@ -222,8 +160,8 @@ TEST(PagedFlight, BinsAreInstalledInThePagersThreadAlone) {
     }
     osgDB::Registry::instance()->setReadFileCallback(nullptr);
     ASSERT_TRUE(loaded);
-    EXPECT_GT(reader->files.size(), 4u);
-    EXPECT_EQ(reader->visits.threads().size(), reader->files.size());
+    EXPECT_GT(reader->total(), 4);
+    EXPECT_EQ(reader->visits.threads().size(), static_cast<std::size_t>(reader->total()));
     for (const auto& [file, threads] : reader->visits.threads()) {
         ASSERT_EQ(threads.size(), 1u);
         EXPECT_NE(threads.front(), std::this_thread::get_id());
@@ -265,6 +203,111 @@ TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
     _paged->setDatabaseOptions(users.get());
     installBins(*_root);
     EXPECT_FALSE(readChildren());
+}
+
+using test::CullView;
+using test::PagedFlight;
+
+osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> files) {
+    osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
+    node->addChild(new osg::Group, 1e6f, 1e10f);
+    unsigned int child = 1;
+    for (const char* file : files) node->setFileName(child++, file);
+    setStoredBin(*node, AnalyticBin(core::GeodeticBin::fromDegrees({0, 10}, {0, 10}, {0, 100})));
+    return node;
+}
+
+CullOptions withExpiry(double seconds, Method method = Method::Quadratic) {
+    CullOptions options;
+    options.expiry = seconds;
+    options.method = method;
+    return options;
+}
+
+TEST(PagingExpiry, IsRaisedOnPagedChildrenWhereNobodyHasSetIt) {
+    const auto node = makePagedLod({"finer.osgb", "finest.osgb"});
+    node->setMinimumExpiryTime(2, 1.0);
+    for (const double seconds : {3.0, 8.0, 1.0, 0.5, 0.0}) {
+        installBins(*node, withExpiry(seconds));
+        EXPECT_EQ(node->getMinimumExpiryTime(0), 0.0);  // not paged
+        EXPECT_DOUBLE_EQ(node->getMinimumExpiryTime(1), seconds);
+        EXPECT_EQ(node->getMinimumExpiryTime(2), 1.0);
+    }
+    for (const Method method : {Method::Sphere, Method::None}) {
+        installBins(*node);
+        EXPECT_DOUBLE_EQ(node->getMinimumExpiryTime(1), 3.0) << "by default";
+        installBins(*node, withExpiry(3.0, method));
+        EXPECT_EQ(node->getMinimumExpiryTime(1), 0.0) << "OSG's rule";
+        EXPECT_EQ(node->getMinimumExpiryTime(2), 1.0);
+    }
+    for (const double seconds : {7.0, 3.0}) {
+        installBins(*node);
+        node->setMinimumExpiryTime(1, seconds);
+        installBins(*node, withExpiry(3.0, Method::Sphere));
+        EXPECT_EQ(node->getMinimumExpiryTime(1), seconds) << "set by the user";
+    }
+}
+
+class TurningTheHead : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const std::string file = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(file.empty());
+        _scene = osgDB::readRefNodeFile(file);
+        ASSERT_TRUE(_scene);
+        osgDB::Registry::instance()->setReadFileCallback(_reads);
+    }
+    void TearDown() override { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
+
+    // 300 km above the equator, looking down at 45 degrees to the east or west.
+    static CullView look(double side) {
+        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+        return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
+    }
+
+    test::TemporaryFolder _folder;
+    osg::ref_ptr<osg::Node> _scene;
+    osg::ref_ptr<test::CountedReads> _reads = new test::CountedReads;
+};
+
+// Fewer than the scene has at first, so that the pager drops whatever it may.
+constexpr unsigned int kSmallTarget = 10;
+constexpr int kFramesOfNearlyTwoSeconds = 118;
+constexpr int kFramesOfFourSeconds = 240;
+
+TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
+    for (const CullOptions& options : {CullOptions(), withExpiry(0.0)}) {
+        osgDB::Registry::instance()->setReadFileCallback(_reads = new test::CountedReads);
+        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "globe.osgb");
+        installBins(*scene, options);
+        PagedFlight flight(*scene, kSmallTarget);
+        ASSERT_TRUE(flight.load(look(+1)));
+        const std::size_t files = _reads->counts().size();
+        ASSERT_GT(files, 2u);
+        flight.frames(look(-1), kFramesOfNearlyTwoSeconds);
+        EXPECT_GT(_reads->counts().size(), files);
+        ASSERT_TRUE(flight.load(look(+1)));
+        EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
+    }
+}
+
+TEST_F(TurningTheHead, AndNotBackLetsTilesExpire) {
+    installBins(*_scene);
+    PagedFlight flight(*_scene, kSmallTarget);
+    ASSERT_TRUE(flight.load(look(+1)));
+    ASSERT_TRUE(flight.load(look(-1)));
+    const std::size_t both = test::loadedTiles(*_scene);
+    flight.frames(look(-1), kFramesOfFourSeconds);
+    const std::size_t kept = test::loadedTiles(*_scene);
+    EXPECT_LT(kept, both);
+
+    // What is left is what this view needs by itself.
+    osg::ref_ptr<osg::Node> fresh = osgDB::readRefNodeFile(_folder / "globe.osgb");
+    installBins(*fresh);
+    PagedFlight alone(*fresh, kSmallTarget);
+    ASSERT_TRUE(alone.load(look(-1)));
+    EXPECT_EQ(kept, test::loadedTiles(*fresh));
+    EXPECT_EQ(flight.drawn(), alone.drawn());
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ CullView closeUp(test::Random& random, const Shown& shown, const osg::Vec3d& eye
 void fly(osg::Group& installed, osg::Group& plain, const PlanarMap& map, test::Random& random, Tally& tally) {
     test::PagedFlight binFlight(installed);
     test::PagedFlight sphereFlight(plain);
-    for (int trial = 0; trial < 60; ++trial) {
+    for (int trial = 0; trial < 30; ++trial) {
         const CullView view = randomView(random, map);
         CullView all = view;
         all.cullingMode = osg::CullSettings::NO_CULLING;
@@ -161,7 +161,7 @@ Tally flownTally(const PlanarMap& map, const std::string& options) {
     Tally tally;
     test::Random random(815);
     fly(*installed, *plain, map, random, tally);
-    EXPECT_GT(tally.seen, 100u);
+    EXPECT_GT(tally.seen, 50u);
     ::testing::Test::RecordProperty("withBins", static_cast<int>(tally.withBins));
     ::testing::Test::RecordProperty("withSpheres", static_cast<int>(tally.withSpheres));
     ::testing::Test::RecordProperty("seen", static_cast<int>(tally.seen));
@@ -184,24 +184,6 @@ TEST(PlanarDatabase, MeshesAreCulledWellAndNeverWhenSeen) {
     map.isTerrain = false;
     const Tally tally = flownTally(map, "skirts=all,heights=0..2600");
     expectFewerThanWithSpheres(tally);
-}
-
-TEST(PlanarDatabase, ShownInAnotherShapeNothingIsCulledUntilItIsFitted) {
-    const test::TemporaryFolder folder;
-    const PlanarMap map;
-    const auto root = map.build(folder.path());
-    installBins(*root, optionsOf("heights=0..2600"));
-    test::PagedFlight flight(*root);
-    const osg::Vec3d eye = map.origin + osg::Vec3d(-1000, 0, 5000);
-    const CullView away = CullView::lookAt(eye, eye - osg::Vec3d(1000, 0, 0), osg::Vec3d(0, 0, 1), 40.0);
-    CullView all = away;
-    all.cullingMode = osg::CullSettings::NO_CULLING;
-    ASSERT_TRUE(flight.load(all));
-    EXPECT_TRUE(reached(*root, away).empty());
-    dynamic_cast<osgTerrain::Terrain&>(*root).setVerticalScale(3.0f);
-    EXPECT_FALSE(reached(*root, away).empty());
-    flight.frames(all, 2);
-    EXPECT_TRUE(reached(*root, away).empty());
 }
 
 TEST(PlanarDatabase, FollowsTheVerticalScale) {

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
 
@@ -68,43 +69,21 @@ osg::ref_ptr<osg::Node> polygonalTile(const PlanarMap& map, const Square& square
         }
     }
     const osg::ref_ptr<osg::DrawElementsUInt> skirt = new osg::DrawElementsUInt(GL_QUAD_STRIP);
-    const auto hang = [&](unsigned int i, unsigned int j) {
-        const unsigned int at = j * kPosts + i;
+    std::vector<unsigned int> border = gridBorder(kPosts);
+    border.push_back(border.front());
+    for (const unsigned int at : border) {
         skirt->push_back(at);
         skirt->push_back(static_cast<unsigned int>(vertices->size()));
         vertices->push_back((*vertices)[at] - osg::Vec3(0.0f, 0.0f, static_cast<float>(square.skirt())));
-    };
-    constexpr unsigned int kLast = kPosts - 1;
-    for (unsigned int i = 0; i < kLast; ++i) hang(i, 0);
-    for (unsigned int j = 0; j < kLast; ++j) hang(kLast, j);
-    for (unsigned int i = kLast; i > 0; --i) hang(i, kLast);
-    for (unsigned int j = kLast; j > 0; --j) hang(0, j);
-    hang(0, 0);
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(gridTriangles(kPosts));
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, gridTriangles(kPosts));
     geometry->addPrimitiveSet(skirt);
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(geometry);
-    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(middle));
+    const osg::ref_ptr<osg::MatrixTransform> transform = placed(geometry, osg::Matrixd::translate(middle));
     transform->setDataVariance(osg::Object::STATIC);
-    transform->addChild(geode);
     return transform;
 }
 
 }  // namespace
-
-osg::ref_ptr<osg::DrawElementsUInt> gridTriangles(unsigned int posts) {
-    osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (unsigned int j = 1; j < posts; ++j) {
-        for (unsigned int i = 1; i < posts; ++i) {
-            const unsigned int at = j * posts + i;
-            for (const unsigned int k : {at - posts - 1, at - posts, at, at - posts - 1, at, at - 1})
-                triangles->push_back(k);
-        }
-    }
-    return triangles;
-}
 
 double PlanarMap::height(double x, double y, double width) const {
     const double u = (x - origin.x()) / size;

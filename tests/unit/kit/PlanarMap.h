@@ -39,9 +39,6 @@ private:
     [[nodiscard]] osg::ref_ptr<osg::Node> tile(const std::string& folder, int level, int x, int y) const;
 };
 
-/// The triangles of a square grid of posts, row by row.
-[[nodiscard]] osg::ref_ptr<osg::DrawElementsUInt> gridTriangles(unsigned int posts);
-
 /// From option text that is right.
 [[nodiscard]] CullOptions optionsOf(const std::string& text);
 

@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Databases that cover a part of the globe: the horizon, and terrain that hides terrain. Pictures and random scenes:
-// tests/long/scenes. What the core proves: CoveredRegionTest.cpp.
+// Databases that cover a part of the globe: the horizon, and terrain that hides terrain; and when those of other
+// builders, which declare no horizon, have one. Pictures and random scenes: tests/long/scenes. What the core proves:
+// CoveredRegionTest.cpp.
 
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
+#include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geometry>
+#include <osg/CoordinateSystemNode>
+#include <osg/LOD>
+#include <osg/MatrixTransform>
 
 #include <support/CapturedNotes.h>
 #include <utility>
@@ -234,6 +239,61 @@ TEST(RegionalTerrain, HidesNothingWhereATileIsMissing) {
     RidgeRegion region;
     region.root->removeChild(&region.tile(1, 1));
     EXPECT_TRUE(region.drawsFarTile(10.3, 0.1));
+}
+
+// A globe of 32 tiles as roots, or paged below one that covers it, and something beside them.
+struct ForeignGlobe : MeshGlobe {
+    explicit ForeignGlobe(bool isBelowATile, bool hasGap = false, const CullOptions& options = {},
+                          osg::Node* more = {}) {
+        if (hasGap) root->removeChild(tiles[31]);
+        if (isBelowATile) {
+            const osg::ref_ptr<osg::Group> file = new osg::Group;
+            for (unsigned int i = 0; i < root->getNumChildren(); ++i) file->addChild(root->getChild(i));
+            root->removeChildren(0, root->getNumChildren());
+            const auto above = makePaged(makeMeshTile(extentsDeg(-90, 90, -180, 180), 0.0, 33), "below.osgb", 1e9f);
+            putBelow(*above, file);
+            root->addChild(above);
+        }
+        if (more) root->addChild(more);
+        installBins(*root, options);
+    }
+};
+
+TEST(ForeignHorizon, IsUsedWithoutBeingDeclaredWhereTilesCoverTheGlobe) {
+    for (const bool isBelowATile : {false, true}) {
+        for (const bool hasGap : {false, true}) {
+            ForeignGlobe globe(isBelowATile, hasGap);
+            EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+            EXPECT_EQ(globe.drawsAntipode(), hasGap) << isBelowATile;
+        }
+    }
+}
+
+// What a set draws stands before the terrain, if anything.
+TEST(ForeignHorizon, IsUsedBesideAPhotogrammetrySet) {
+    for (const bool isMoved : {false, true}) {
+        const osg::ref_ptr<osg::Group> set = isMoved ? new osg::MatrixTransform : new osg::Group;
+        const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
+        tile->addChild(makeFlatTile(extentsDeg(20, 21, -21, -20), 100.0f), 0.0f, 1e9f);
+        set->addChild(tile);
+        markPhotogrammetrySet(*set, "");
+        ForeignGlobe globe(false, false, {}, set);
+        EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+        EXPECT_FALSE(globe.drawsAntipode());
+    }
+}
+
+TEST(ForeignHorizon, AnotherGlobeInsideDoesNotHideThatTilesLeaveAGap) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> inside = new osg::CoordinateSystemNode;
+    inside->setEllipsoidModel(new osg::EllipsoidModel);
+    for (const bool hasGap : {false, true}) EXPECT_EQ(ForeignGlobe(false, hasGap, {}, inside).drawsAntipode(), hasGap);
+}
+
+TEST(ForeignHorizon, IsNotUsedWhereAllSkirtsCountOrWhereItIsOff) {
+    CullOptions skirts, off;
+    skirts.skirts = SkirtUse::All;
+    off.horizonUse = HorizonUse::Off;
+    for (const CullOptions& options : {skirts, off}) EXPECT_TRUE(ForeignGlobe(true, false, options).drawsAntipode());
 }
 
 }  // namespace

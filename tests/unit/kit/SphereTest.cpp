@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// OSG's own spheres on tiles and on groups above them, which bins leave in use.
+// OSG's own spheres on tiles and on groups above them, which bins leave in use, and which occluders are compared with.
 
 #include "ApplicationGlobe.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
+#include <osg/ConvexPlanarOccluder>
 #include <osg/Geode>
 #include <osg/Group>
 #include <osg/LOD>
+#include <osg/OccluderNode>
 #include <osg/PagedLOD>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
 
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
@@ -22,68 +23,11 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-// Tiles within tiles, each file with four.
-osg::ref_ptr<osg::Node> makeTree(double south, double west, double width, int levels) {
-    const auto mesh = makeMeshTile(extentsDeg(south, south + width, west, west + width), 0.0);
-    if (levels == 0) return mesh;
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, std::to_string(levels) + ".osgb", 1e9f);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    const double half = width / 2;
-    for (const double y : {south, south + half}) {
-        for (const double x : {west, west + half}) file->addChild(makeTree(y, x, half, levels - 1));
-    }
-    putBelow(*tile, file);
-    return tile;
-}
-
 osg::ref_ptr<osg::CoordinateSystemNode> globeWith(osg::Node* content) {
     osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
     globe->setEllipsoidModel(new osg::EllipsoidModel);
     globe->addChild(content);
     return globe;
-}
-
-struct CountingIntersector : osgUtil::LineSegmentIntersector {
-    using LineSegmentIntersector::LineSegmentIntersector;
-    bool enter(const osg::Node& node) override {
-        ++asked;
-        return LineSegmentIntersector::enter(node);
-    }
-    int asked = 0;
-};
-
-struct Pick {
-    int asked;
-    std::size_t hits;
-};
-
-Pick pickAt(osg::Node& scene, double latitude, double longitude) {
-    const osg::ref_ptr<CountingIntersector> ray =
-        new CountingIntersector(ecefDeg(latitude, longitude, 1e5), ecefDeg(latitude, longitude, -1e5));
-    osgUtil::IntersectionVisitor visitor(ray);
-    visitor.setTraversalMode(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
-    scene.accept(visitor);
-    return {ray->asked, ray->getIntersections().size()};
-}
-
-TEST(Spheres, GuideIntersectionsAsWithoutBins) {
-    const auto plain = globeWith(makeTree(10.0, 10.0, 16.0, 4));
-    for (const char* const method : {"quadratic", "none"}) {
-        const auto installed = globeWith(makeTree(10.0, 10.0, 16.0, 4));
-        std::string error;
-        installBins(*installed, *cullOptionsFromText(std::string("method=") + method, error));
-        update(*installed);
-        (void)installed->getBound();
-        Random random(42);
-        for (int i = 0; i < 50; ++i) {
-            const double latitude = random.uniform(10.0, 26.0), longitude = random.uniform(10.0, 26.0);
-            const Pick with = pickAt(*installed, latitude, longitude), without = pickAt(*plain, latitude, longitude);
-            EXPECT_GT(without.hits, 0u);
-            EXPECT_LT(without.asked, 60);
-            EXPECT_EQ(with.hits, without.hits) << method;
-            EXPECT_EQ(with.asked, without.asked) << method;
-        }
-    }
 }
 
 // Tiles below a tree of plain groups.
@@ -237,6 +181,94 @@ TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
         EXPECT_GT(drawnIn(true, view), 0u);
     }
     EXPECT_GT(notes.count("the root file holds content that cannot be compared"), 0u);
+}
+
+// A tile in ECEF, about which OSG has a larger sphere than the one about its bin.
+osg::ref_ptr<osg::PagedLOD> tileInEcef() {
+    const osg::ref_ptr<osg::MatrixTransform> frame = makeMeshTile(extentsDeg(35, 36, 45, 46), 0.0);
+    const osg::ref_ptr<osg::Node> mesh = frame->getChild(0);
+    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    for (osg::Vec3& vertex : vertices) vertex = osg::Vec3d(vertex) * frame->getMatrix();
+    osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "no.osgb", 1.0f);
+    setStoredBin(*tile, tileSurface(*mesh, osg::EllipsoidModel(), osg::Matrixd()).bin);
+    return tile;
+}
+
+TEST(Spheres, LoseNoTileThatIsSmallerThanTheyAre) {
+    for (const bool isFamily : {true, false}) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> stock = new osg::CoordinateSystemNode,
+                                                      withBins = new osg::CoordinateSystemNode;
+        for (const auto& root : {stock, withBins}) {
+            root->setEllipsoidModel(new osg::EllipsoidModel);
+            root->addChild(tileInEcef());
+        }
+        ASSERT_EQ(installBins(*withBins), 1u);
+        if (!isFamily) withBins->addCullCallback(new osg::NodeCallback);
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        std::size_t drawn = 0;
+        for (double distance = 5e6; distance < 2e8; distance *= 1.01) {
+            CullView view = CullView::lookAt(ecefDeg(35.5, 45.5, distance), ecefDeg(35.5, 45.5, 0), {0, 0, 1}, 60.0);
+            view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+            const std::size_t all = cull(*stock, view, *visitor).drawn.size();
+            EXPECT_GE(cull(*withBins, view, *visitor).drawn.size(), all) << distance << isFamily;
+            drawn += all;
+        }
+        EXPECT_GT(drawn, 20u);
+        EXPECT_LT(drawn, 350u);
+    }
+}
+
+constexpr double kAltitude = 5e6;
+
+// A wall of this size, seen from a place above the globe: half of the picture's height is 0.7.
+osg::ref_ptr<osg::Node> makeWall(const CullView& view, double halfSize, double aside) {
+    constexpr double kDistance = 0.2 * kAltitude;
+    const osg::Matrixd toWorld = osg::Matrixd::inverse(view.modelView);
+    const osg::ref_ptr<osg::ConvexPlanarOccluder> occluder = new osg::ConvexPlanarOccluder;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        const osg::Vec3d corner(aside + x * halfSize, y * halfSize, -1.0);
+        occluder->getOccluder().add(osg::Vec3(corner * kDistance * toWorld));
+    }
+    osg::ref_ptr<osg::OccluderNode> wall = new osg::OccluderNode;
+    wall->setOccluder(occluder);
+    wall->setCullingActive(false);
+    return wall;
+}
+
+// The numbers of the globe's tiles that are drawn behind a wall.
+std::set<std::size_t> drawnBehind(osg::Node& wall, MeshGlobe& globe, const CullView& view) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(&wall);
+    scene->addChild(globe.root);
+    const auto drawn = cull(*scene, view, *globe.visitor, ++globe.frame).drawn;
+    std::set<std::size_t> numbers;
+    for (std::size_t i = 0; i < globe.tiles.size(); ++i)
+        if (drawn.count(drawableOf(*globe.tiles[i]))) numbers.insert(i);
+    return numbers;
+}
+
+TEST(Occluders, LeaveTilesToOsgsSpheres) {
+    MeshGlobe plain, installed;
+    installBins(*installed.root);
+    Random random(90);
+    std::size_t hidden = 0, culled = 0;
+    for (int i = 0; i < 60; ++i) {
+        const osg::Vec3d eye = ecefDeg(random.uniform(-80.0, 80.0), random.uniform(-180.0, 180.0), kAltitude);
+        const osg::Vec3d target = ecefDeg(random.uniform(-80.0, 80.0), random.uniform(-180.0, 180.0), -0.5 * kAltitude);
+        CullView view = CullView::lookAt(eye, target, {0, 0, 1}, 70.0);
+        // OSG drops occluders whose shadow is a small part of the frustum
+        view.projection = osg::Matrixd::perspective(70.0, 1.0, 0.05 * kAltitude, 2e7);
+        const osg::ref_ptr<osg::Node> wall = makeWall(view, random.uniform(0.2, 0.6), random.uniform(-0.3, 0.3));
+        view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+        const std::set<std::size_t> drawn = drawnBehind(*wall, installed, view);
+        EXPECT_EQ(drawn, drawnBehind(*wall, plain, view)) << i;
+        view.cullingMode &= ~osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+        const std::size_t inView = drawnBehind(*wall, plain, view).size();
+        hidden += inView - drawn.size();
+        culled += inView - drawnBehind(*wall, installed, view).size();
+    }
+    EXPECT_GT(hidden, 30u);
+    EXPECT_GT(culled, 60u) << "bins, in views without occluders";
 }
 
 }  // namespace

@@ -9,9 +9,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
 #include <osg/Stats>
-#include <osg/ValueObject>
 #include <osgDB/ReadFile>
 #include <osgUtil/UpdateVisitor>
 
@@ -95,37 +93,13 @@ TEST_F(SwitchedCulling, DrawsWhatTheMethodDrawsAfreshAlsoWhatIsPagedInLater) {
     PagedFlight flight(*scene);
     ASSERT_TRUE(flight.load(look(+1)));
     double side = -1.0;
-    for (const Method method : {Method::Sphere, Method::Quadratic, Method::None, Method::Exact, Method::None,
-                                Method::Sphere, Method::Exact, Method::Quadratic}) {
+    for (const Method method : {Method::Sphere, Method::None, Method::Exact, Method::Sphere, Method::Quadratic}) {
         setCullOptions(*scene, by(method));
         ASSERT_TRUE(flight.load(look(-side)));
         EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(-side))) << methodName(method) << ", tiles loaded before";
         ASSERT_TRUE(flight.load(look(side)));
         EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(side))) << methodName(method) << ", tiles loaded later";
         side = -side;
-    }
-}
-
-TEST_F(SwitchedCulling, MethodsDrawDifferently) {
-    const std::size_t bins = drawnAfresh(Method::Quadratic, look(1)).size();
-    const std::size_t spheres = drawnAfresh(Method::Sphere, look(1)).size();
-    const std::size_t all = drawnAfresh(Method::None, look(1)).size();
-    EXPECT_LT(bins, spheres);
-    EXPECT_LT(spheres, all);
-}
-
-TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
-    const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
-    PagedFlight flight(*scene);
-    constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Quadratic};
-    for (std::size_t i = 0; i < 24; ++i) {
-        setCullOptions(*scene, by(kMethods[i % kMethods.size()]));
-        flight.frames(look(i % 8 < 4 ? 1.0 : -1.0), 1);
-    }
-    setCullOptions(*scene, by(Method::Quadratic));
-    for (const double side : {1.0, -1.0}) {
-        ASSERT_TRUE(flight.load(look(side)));
-        EXPECT_EQ(flight.drawn(), drawnAfresh(Method::Quadratic, look(side)));
     }
 }
 
@@ -190,7 +164,7 @@ TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
 
 TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
     const test::CapturedNotes notices;
-    for (const char* const text : {"soon", "-1", "0", "nan", ""}) {
+    for (const char* const text : {"soon", "-1", "nan", ""}) {
         setenv("OSGANALYTICBIN_COMPARE", text, 1);
         const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
         PagedFlight flight(*scene);
@@ -222,18 +196,6 @@ TEST_P(LateComer, IsCulledByTheNewMethodBeforeItIsShown) {
     EXPECT_EQ(test::installedOn(pagedIn(*finest))->getCullOptions().method, Method::Exact);
 }
 
-TEST_P(LateComer, HasNoBinsWhereTheNewMethodHasNone) {
-    const osg::ref_ptr<osg::Node> scene = read(GetParam());
-    osg::PagedLOD& paged = pagedIn(*scene);
-    const osg::ref_ptr<osg::Node> late = test::readBelow(paged);
-    ASSERT_TRUE(late);
-    setCullOptions(*scene, by(Method::Sphere));
-    test::putBelow(paged, late);
-    update(*scene);
-    EXPECT_FALSE(test::installedOn(pagedIn(*late)));
-    EXPECT_TRUE(InactiveNodes::of(*scene).nodes.empty());
-}
-
 INSTANTIATE_TEST_SUITE_P(Of, LateComer, ::testing::Values(Method::Quadratic, Method::Sphere, Method::None),
                          [](const auto& test) { return std::string(methodName(test.param)); });
 
@@ -252,31 +214,6 @@ TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
     EXPECT_EQ(after.values, values);
     removeBins(*scene);
     EXPECT_EQ(scene->getCullCallback(), nullptr);
-}
-
-TEST_F(SwitchedCulling, FindsNoTileOfAnEarlierMethodInTheObjectCache) {
-    const osg::ref_ptr<osgDB::Options> caching = new osgDB::Options;
-    caching->setObjectCacheHint(osgDB::Options::CACHE_NODES);
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file, caching);
-    pagedIn(*scene).setDatabaseOptions(caching);
-    installBins(*scene, by(Method::Quadratic));
-    for (const Method method : {Method::Exact, Method::Quadratic, Method::Exact}) {
-        setCullOptions(*scene, by(method));
-        const osg::ref_ptr<osg::Node> page = test::readBelow(pagedIn(*scene));
-        ASSERT_TRUE(page && test::installedOn(pagedIn(*page)));
-        EXPECT_EQ(test::installedOn(pagedIn(*page))->getCullOptions().method, method);
-        test::putBelow(pagedIn(*scene), page);
-        setCullOptions(*scene, by(Method::None));
-        test::pageOut(pagedIn(*scene));
-    }
-    osgDB::Registry::instance()->clearObjectCache();
-}
-
-TEST_F(SwitchedCulling, InstallsBinsWhereThereWereNone) {
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
-    EXPECT_EQ(setCullOptions(*scene, by(Method::Exact)), 32u);
-    EXPECT_EQ(setCullOptions(*scene, by(Method::Sphere)), 0u);
-    EXPECT_EQ(setCullOptions(*scene, by(Method::Quadratic)), 32u);
 }
 
 }  // namespace

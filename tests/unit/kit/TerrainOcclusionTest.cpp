@@ -179,83 +179,21 @@ osg::ref_ptr<osg::Program> program(osg::Shader::Type type, const std::string& so
     return made;
 }
 
-// State in which a mesh may not paint what its vertices say.
-std::vector<std::pair<std::string, std::function<void(osg::StateSet&)>>> doubtfulStates() {
-    using Set = osg::StateSet;
-    const auto shader = [](osg::Shader::Type type, const std::string& source) {
-        return [=](Set& state) { state.setAttributeAndModes(program(type, source)); };
-    };
-    const auto mode = [](GLenum name, osg::StateAttribute::GLModeValue value) {
-        return [=](Set& state) { state.setMode(name, value | osg::StateAttribute::OVERRIDE); };
-    };
-    const auto polygons = [](osg::PolygonMode::Mode kind) {
-        return [=](Set& state) {
-            state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, kind),
-                                       osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
-        };
-    };
-    const auto depth = [](osg::Depth::Function function, bool isWritten) {
-        return [=](Set& state) { state.setAttributeAndModes(new osg::Depth(function, 0.0, 1.0, isWritten)); };
-    };
-    const auto colours = [](bool red, bool green, bool blue) {
-        return [=](Set& state) { state.setAttribute(new osg::ColorMask(red, green, blue, true)); };
-    };
-    constexpr auto kFragment = osg::Shader::FRAGMENT;
-    constexpr auto kVertex = osg::Shader::VERTEX;
-    return {
-        {"discards", shader(kFragment, "void main() { if (gl_FragCoord.x > 9.0) discard; gl_FragColor = vec4(1.0); }")},
-        {"depths by a shader", shader(kFragment, "void main() { gl_FragDepth = 0.0; gl_FragColor = vec4(1.0); }")},
-        {"defines of OSG", shader(kFragment, "#pragma import_defines(KILL)\nvoid main() { KILL; }")},
-        {"no text", shader(kFragment, "")},
-        {"moved vertices", shader(kVertex, "void main() { gl_Position = ftransform() + vec4(1.0); }")},
-        {"vertices moved later", shader(kVertex, "void main() { gl_Position = ftransform(); gl_Position.y += 1.0; }")},
-        {"other vertices", shader(kVertex, "void main() { gl_Position = osg_ModelViewProjectionMatrix * bent; }")},
-        {"a comment", shader(kVertex, "void main() { /* gl_Position = ftransform(); */ place(); }")},
-        {"triangles made anew", shader(osg::Shader::GEOMETRY, "void main() {}")},
-        {"no colours", colours(false, false, false)},
-        {"two colours", colours(true, false, true)},
-        {"lines", polygons(osg::PolygonMode::LINE)},
-        {"points", polygons(osg::PolygonMode::POINT)},
-        {"no depth test", mode(GL_DEPTH_TEST, osg::StateAttribute::OFF)},
-        {"always drawn", depth(osg::Depth::ALWAYS, true)},
-        {"never drawn", depth(osg::Depth::NEVER, true)},
-        {"drawn where equal", depth(osg::Depth::EQUAL, true)},
-        {"no depth written", depth(osg::Depth::LESS, false)},
-        {"clip plane", mode(GL_CLIP_PLANE0 + 5, osg::StateAttribute::ON)},
-        {"alpha test", mode(GL_ALPHA_TEST, osg::StateAttribute::ON)},
-        {"blending", mode(GL_BLEND, osg::StateAttribute::ON)},
-        {"stencil test", mode(GL_STENCIL_TEST, osg::StateAttribute::ON)},
-        {"stipple", mode(GL_POLYGON_STIPPLE, osg::StateAttribute::ON)},
-        {"alpha to coverage", mode(GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, osg::StateAttribute::ON)},
-        {"bin of translucent things", [](Set& state) { state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN); }},
-        {"culled front faces", [](Set& state) { state.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT)); }},
-    };
-}
-
-// Of the camera, whose state OSG puts above the scene, of a group, of the database, of the ridge's tile, and of its
-// drawable, which is asked when bins are installed.
+// Of the camera, whose state OSG puts above the scene, of the database, and of the ridge's tile. States of all kinds:
+// tests/scenes.
 TEST(TerrainOcclusion, NeedsStateInWhichRidgesPaintTheirTriangles) {
-    for (const auto& [name, set] : doubtfulStates()) {
-        RidgeGlobe globe;
-        const osg::ref_ptr<osg::Group> above = new osg::Group;
-        above->addChild(globe.root);
-        globe.scene = above;
-        installBins(*globe.root, withOcclusion());
-        EXPECT_FALSE(globe.drawsFarTile()) << name;
-        for (osg::Node* const node : {static_cast<osg::Node*>(above), static_cast<osg::Node*>(globe.root.get()),
-                                      static_cast<osg::Node*>(globe.row[2].get())}) {
-            set(*node->getOrCreateStateSet());
-            EXPECT_TRUE(globe.drawsFarTile()) << name << " on " << node->className();
-            node->setStateSet(nullptr);
-            EXPECT_FALSE(globe.drawsFarTile()) << name;
-        }
-        CullView camera = RidgeGlobe::alongRow();
-        camera.states = new osg::StateSet;
-        set(*camera.states);
-        EXPECT_TRUE(globe.drawsFarTile(camera)) << name << " on a camera";
-        set(*drawableOf(*globe.row[2])->getOrCreateStateSet());
-        installBins(*globe.root, withOcclusion());
-        EXPECT_TRUE(globe.drawsFarTile()) << name << " on a drawable";
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView camera = RidgeGlobe::alongRow();
+    camera.states = new osg::StateSet;
+    EXPECT_FALSE(globe.drawsFarTile(camera));
+    camera.states->setMode(GL_BLEND, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    EXPECT_TRUE(globe.drawsFarTile(camera));
+    for (osg::Node* const node : {globe.root->asNode(), globe.row[2]->asNode()}) {
+        EXPECT_FALSE(globe.drawsFarTile());
+        node->getOrCreateStateSet()->setAttribute(new osg::ColorMask(true, false, true, true));
+        EXPECT_TRUE(globe.drawsFarTile()) << node->className();
+        node->setStateSet(nullptr);
     }
 }
 
@@ -276,16 +214,6 @@ TEST(TerrainOcclusion, TrustsShadersThatAreDeclared) {
     EXPECT_FALSE(globe.drawsFarTile());
 }
 
-// Draws nothing.
-struct NoDrawing : osg::Drawable::DrawCallback {
-    void drawImplementation(osg::RenderInfo&, const osg::Drawable*) const override {}
-};
-
-// May change what is drawn after the cull traversal has relied on it.
-struct Updater : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
-};
-
 // Nowhere near the ridge, beside the view.
 struct OwnBox : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override {
@@ -298,29 +226,6 @@ void giveOwnBox(RidgeGlobe& globe) {
     drawable.setComputeBoundingBoxCallback(new OwnBox);
     drawable.dirtyBound();
     EXPECT_FALSE(globe.draws(*globe.row[2], RidgeGlobe::alongRow())) << "as without bins";
-}
-
-TEST(TerrainOcclusion, NeedsRidgesWithoutCallbacksOfTheApplication) {
-    const auto draw = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->setDrawCallback(new NoDrawing); };
-    const auto cull = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addCullCallback(new Updater); };
-    const auto cullMesh = [](RidgeGlobe& globe) { globe.row[2]->getChild(0)->addCullCallback(new Updater); };
-    const auto updateMesh = [](RidgeGlobe& globe) { globe.row[2]->getChild(0)->addUpdateCallback(new Updater); };
-    const auto updateDrawable = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addUpdateCallback(new Updater); };
-    const auto handleEvents = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addEventCallback(new Updater); };
-    const std::vector<std::pair<const char*, std::function<void(RidgeGlobe&)>>> ways{
-        {"draw", draw},
-        {"cull", cull},
-        {"cull of the mesh", cullMesh},
-        {"update of the mesh", updateMesh},
-        {"update of the drawable", updateDrawable},
-        {"event of the drawable", handleEvents},
-        {"a box", giveOwnBox}};
-    for (const auto& [name, put] : ways) {
-        RidgeGlobe globe;
-        put(globe);
-        installBins(*globe.root, withOcclusion());
-        EXPECT_TRUE(globe.drawsFarTile()) << name;
-    }
 }
 
 TEST(TerrainOcclusion, NeedsRidgesThatTheCameraDraws) {

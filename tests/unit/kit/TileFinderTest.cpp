@@ -3,6 +3,8 @@
 //
 // Oracle: scene graphs whose tiles are known because they were put there.
 
+#include "DatabaseFixture.h"
+
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFinder.h>
 
@@ -22,20 +24,14 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::makePaged;
+
 osg::ref_ptr<osg::MatrixTransform> makeMesh(double x = 0.0) {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(x, 0, 0));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(new osg::Geometry);
     transform->addChild(geode);
     return transform;
-}
-
-osg::ref_ptr<osg::PagedLOD> makePaged(osg::Node* mesh, const std::string& file) {
-    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    paged->addChild(mesh, 1e6f, 1e10f);
-    paged->setFileName(1, file);
-    paged->setRange(1, 0.0f, 1e6f);
-    return paged;
 }
 
 std::vector<osg::Node*> nodesOf(const std::vector<FoundTile>& tiles) {
@@ -110,16 +106,6 @@ TEST(TileFinder, WhatMayMoveIsNoTile) {
     file->addChild(makePaged(moving, "c.osgb"));
     file->addChild(new osg::MatrixTransform);
     EXPECT_TRUE(findTiles(*file, frameBelowATile()).empty());
-}
-
-TEST(TileFinder, FramesFollowFixedTransforms) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    const osg::ref_ptr<osg::MatrixTransform> shift = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
-    shift->addChild(makePaged(makeMesh(), "c.osgb"));
-    root->addChild(shift);
-    const std::vector<FoundTile> tiles = findTiles(*root);
-    ASSERT_EQ(tiles.size(), 1u);
-    EXPECT_EQ(tiles[0].frame.localToEcef, osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST(TileFinder, ATerrainWithoutEllipsoidIsOnWgs84AndAMapIsNoGlobe) {

@@ -24,10 +24,11 @@ inline TileSurface surfaceOf(osg::Node& node, double sampleRatio = 1.0) {
     return tileSurface(node, *kModel, osg::Matrixd(), sampleRatio);
 }
 
-inline core::Interval altitudesOf(const std::vector<glm::dvec3>& points) {
+inline core::Interval altitudesOf(const std::vector<glm::dvec3>& points,
+                                  const core::Ellipsoid& ellipsoid = kEllipsoid) {
     core::Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const glm::dvec3& point : points) {
-        const double altitude = kEllipsoid.toGeodetic(point).altitude;
+        const double altitude = ellipsoid.toGeodetic(point).altitude;
         range = {std::min(range.lower, altitude), std::max(range.upper, altitude)};
     }
     return range;

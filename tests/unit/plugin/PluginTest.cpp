@@ -91,14 +91,6 @@ TEST_F(Plugin, SaysOnceHowManyTilesHaveBins) {
     EXPECT_EQ(notes.count("has bins"), 1u);
 }
 
-TEST_F(Plugin, InstallsTheQuadraticByDefault) {
-    const osg::ref_ptr<osg::Node> node = read(".analyticbin");
-    ASSERT_TRUE(node);
-    const CallbackCounter counter = counted(*node);
-    EXPECT_EQ(counter.count, 32);
-    EXPECT_EQ(counter.options.method, Method::Quadratic);
-}
-
 TEST_F(Plugin, TakesParametersInThePseudoLoadersManner) {
     const osg::ref_ptr<osg::Node> node = read(".(method=exact,expiry=1.25).analyticbin");
     ASSERT_TRUE(node);

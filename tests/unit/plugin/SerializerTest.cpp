@@ -121,14 +121,6 @@ TEST(SerializedText, WithABrokenItemIsNeverCulled) {
     }
 }
 
-TEST_P(Serializer, ABinThatIsNoQuadtreeCellReadsBackHoldingIt) {
-    const osg::ref_ptr<osg::Group> node = new osg::Group;
-    node->setCullCallback(new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel()));
-    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
-    ASSERT_TRUE(back);
-    EXPECT_TRUE(dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback()).getBin().contains(awkwardBin()));
-}
-
 TEST_P(Serializer, DefaultsReadBackAsDefaults) {
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setCullCallback(new AnalyticBinCullCallback);

@@ -73,6 +73,7 @@ public:
 
     /// Sorts all earth that was added, for hidesInAnyOrder(). Neither add() nor hides() may be called afterwards.
     void sort();
+    /// Whether sort() was called.
     [[nodiscard]] bool isSorted() const noexcept { return !_firstSteps.empty(); }
 
     /// As hides(), for bodies in any order. Requires: isSorted().
