@@ -475,6 +475,7 @@ TEST_P(PlanetSurface, HoldsMeshes) {
 TEST_P(PlanetSurface, HoldsTerrainTiles) {
     for (const double unit : GetParam().units()) {
         setUnit(unit);
+        const bool isEarthLike = std::abs(ellipsoid.eccentricitySquared()) < 0.1;
         for (const double south : {-90.0, -45.0, 0.0, 35.0}) {
             for (const float scale : {1.0f, 3.0f, 0.25f, -2.0f}) {
                 const GeodeticBin extents = GeodeticBin::fromDegrees({south, south + 45.0}, {-45.0, 0.0}, {0.0, 0.0});
@@ -484,7 +485,8 @@ TEST_P(PlanetSurface, HoldsTerrainTiles) {
                 });
                 tile->getElevationLayer()->getLocator()->setEllipsoidModel(model);
                 const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
-                ASSERT_TRUE(surface.bin.valid()) << unit << " at " << south;
+                ASSERT_EQ(surface.bin.valid(), isEarthLike) << unit << " at " << south;
+                if (!isEarthLike) continue;
                 EXPECT_LE(surface.bin.margin(), 2e-7 * std::max(radius, ellipsoid.polarRadius()));
                 const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 4);
                 ASSERT_FALSE(samples.empty());

@@ -102,7 +102,7 @@ TEST_F(ObjectCache, ThreadsThatReadOneFileGetTilesThatWereTreatedOnce) {
     const auto options = pagingOptions(osgDB::Options::CACHE_ALL);
     readInThreads(*options);
     expectOneVisitEach();
-    EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads)) << "it is asked each time";
+    EXPECT_EQ(_reader->total(), kThreads * kReads) << "it is asked each time";
 }
 
 // As in a simulator that programs its page content.
@@ -189,7 +189,7 @@ TEST_F(ObjectCache, WithoutTheHintEveryReadIsFresh) {
     const auto options = pagingOptions(osgDB::Options::CACHE_NONE);
     readInThreads(*options);
     expectOneVisitEach();
-    EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads));
+    EXPECT_EQ(_reader->total(), kThreads * kReads);
 }
 
 TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {

@@ -11,8 +11,8 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -276,7 +276,7 @@ TEST(ForeignHorizon, IsUsedBesideAPhotogrammetrySet) {
         const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
         tile->addChild(makeFlatTile(extentsDeg(20, 21, -21, -20), 100.0f), 0.0f, 1e9f);
         set->addChild(tile);
-        markPhotogrammetrySet(*set, "");
+        markPhotogrammetrySet(*set);
         ForeignGlobe globe(false, false, {}, set);
         EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
         EXPECT_FALSE(globe.drawsAntipode());
