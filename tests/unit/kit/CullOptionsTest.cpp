@@ -97,11 +97,8 @@ TEST(CullOptions, WhatIsWrongIsNamedInOneLine) {
                                                          {"globe=0/1", "0/1"},
                                                          {"globe=6e6", "6e6"},
                                                          {"ground=", "ground"},
-                                                         {"occlusion=maybe", "use on, off or auto"},
-                                                         {"occlusion", "use on, off or auto"},
-                                                         // where the methods for comparison went
-                                                         {"method=paper", "osgbinbench --methods paper"},
-                                                         {"method=box", "osgbinbench --methods box"}};
+                                                         {"occlusion=maybe", "use occlusion=on|off|auto"},
+                                                         {"occlusion", "use occlusion=on|off|auto"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

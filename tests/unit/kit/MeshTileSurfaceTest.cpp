@@ -519,22 +519,6 @@ TEST_P(PlanetSurface, TellsTerrainFromWhatIsNone) {
     }
 }
 
-// Wide cells sag by nearly the radius of curvature at a disk's equator: from high posts not below it, but
-// at vertical scales that turn them into valleys.
-TEST(FlatSurface, IsUnknownWhereChordsMayReachTheCentresOfCurvature) {
-    const osg::ref_ptr<osg::EllipsoidModel> disk = new osg::EllipsoidModel(6378137.0, 0.1 * 6378137.0);
-    const auto isKnown = [&](double degrees, float altitude) {
-        const GeodeticBin extents = GeodeticBin::fromDegrees({0.0, degrees}, {0.0, degrees}, {0.0, 0.0});
-        const auto tile = makeTerrainTile(extents, 3, 3, [&](unsigned int, unsigned int) { return altitude; });
-        tile->getElevationLayer()->getLocator()->setEllipsoidModel(disk);
-        return tileSurface(*tile, *disk, osg::Matrixd()).bin.valid();
-    };
-    EXPECT_TRUE(isKnown(1.0, 45000.0f));
-    EXPECT_TRUE(isKnown(5.0, 45000.0f));
-    EXPECT_FALSE(isKnown(6.0, 45000.0f));
-    EXPECT_FALSE(isKnown(45.0, 0.0f));
-}
-
 INSTANTIATE_TEST_SUITE_P(All, PlanetSurface, ::testing::ValuesIn(kPlanets),
                          [](const auto& planet) { return std::string(planet.param.name); });
 
