@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "Footprint.h"
 #include "Prefetch.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -77,6 +78,8 @@ public:
     /// everything below them, and have neither states nor callbacks. False also for tiles of osgTerrain.
     [[nodiscard]] bool isBareMesh(const osg::NodeVisitor& visitor) const;
 
+    /// The memory that was read when the walk last went through the tile to a finer level.
+    [[nodiscard]] const Footprint& wayThrough() const { return _wayThrough; }
     /// Prefetches what drawing the mesh reads.
     void prefetchMesh() const {
         constexpr unsigned int kLines = 4;
@@ -120,6 +123,7 @@ private:
     bool _isDrawn = false;  // here, not by OSG
     std::array<Part, kMostParts> _parts;
     BoundedMesh _bounded;
+    Footprint _wayThrough;
 };
 
 }  // namespace osgAnalyticBin

@@ -9,17 +9,24 @@
 
 namespace osgAnalyticBin {
 
-/// Prefetches what a traversal reads of a node: its masks, callbacks and state, and `lines` cache lines from there on.
-/// Nothing is read, so what was at the address may be gone.
-inline void prefetchNode([[maybe_unused]] const osg::Node& node, [[maybe_unused]] unsigned int lines) {
+constexpr std::uintptr_t kCacheLine = 64;  // bytes
+
+/// Prefetches cache lines. Nothing is read, so what was at the address may be gone.
+inline void prefetchLines([[maybe_unused]] std::uintptr_t address, [[maybe_unused]] std::uintptr_t lines) {
 #ifdef __GNUC__
-    constexpr std::uintptr_t kLine = 64;  // bytes; parents and the bound come before the third one
-    for (std::uintptr_t at = reinterpret_cast<std::uintptr_t>(&node) + 2 * kLine; lines > 0; --lines, at += kLine) {
-        __builtin_prefetch(reinterpret_cast<const void*>(at));
+    for (; lines > 0; --lines, address += kCacheLine) {
+        __builtin_prefetch(reinterpret_cast<const void*>(address));
         // GCC leaves out calls of functions that do nothing but this
-        __asm__ volatile("" : : "r"(at));
+        __asm__ volatile("" : : "r"(address));
     }
 #endif
+}
+
+/// Prefetches what a traversal reads of a node: its masks, callbacks and state, and `lines` cache lines from there on.
+inline void prefetchNode(const osg::Node& node, unsigned int lines) {
+    // parents and the bound come before
+    constexpr std::uintptr_t kFirst = 2 * kCacheLine;
+    prefetchLines(reinterpret_cast<std::uintptr_t>(&node) + kFirst, lines);
 }
 
 }  // namespace osgAnalyticBin

@@ -123,7 +123,10 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
                                               ? notSearchedIn(verdicts, family.block().partFrom(first))
                                               : verdicts.members;
         constexpr unsigned int kLinesOfTile = 5;
-        forEachBit(kept, [&](unsigned int number) { prefetchNode(family.node(first + number), kLinesOfTile); });
+        forEachBit(kept, [&](unsigned int number) {
+            prefetchNode(family.node(first + number), kLinesOfTile);
+            family.tile(first + number).wayThrough().fetch();
+        });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         forEachBit(lowestBits(here) & ~(notSearched & ~kept), [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
@@ -243,7 +246,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
         if (!tile.isCertain && tile.callback.getInstalledTile()->has(InstalledTile::GapBelow)) doubt();
-        selectLevel(level);
+        selectLevel(level, tile.member->wayThrough());
         return true;
     }
     Tile here = tile;
@@ -265,9 +268,11 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
 }
 
 // A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level) {
+void SelectionWalk::selectLevel(osg::Node& level, const Footprint& wayThrough) {
     const TileFamily* const family = inlineFamily(level);
-    family ? selectInside(*level.asGroup(), family) : selectNode(level);
+    if (!family) return selectNode(level);
+    family->noteMemory(wayThrough, level);
+    selectInside(*level.asGroup(), family);
 }
 
 // The children of a plain group, which is entered.

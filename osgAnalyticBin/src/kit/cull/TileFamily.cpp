@@ -184,6 +184,18 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
                   verdicts);
 }
 
+void TileFamily::noteMemory(const Footprint& footprint, const osg::Node& level) const {
+    Footprint::Notes notes(footprint);
+    notes.add(&level, 4);
+    notes.add(this, 5);
+    notes.add(_block, 2);
+    notes.add(_nodes.data(), 1);
+    if (_block->size() == 0) return;
+    notes.add(&_block->partFrom(0), 4);
+    notes.add(&(*_block)[0], 6);
+    notes.add(_tiles.data(), 12);
+}
+
 // A state that the application has set since then is asked for.
 std::uint64_t TileFamily::hideable(unsigned int first, std::uint64_t tiles) const {
     std::uint64_t hideable = tiles;

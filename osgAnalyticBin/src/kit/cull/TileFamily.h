@@ -109,6 +109,9 @@ public:
     /// a hole.
     [[nodiscard]] bool hasLost(const osg::Group& group) const;
 
+    /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
+    void noteMemory(const Footprint& footprint, const osg::Node& level) const;
+
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
 

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Prefetch.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace osgAnalyticBin {
+
+/// Where the memory lies that a walk read when it last went through a tile to a finer level. These nodes and numbers
+/// refer to each other; fetched together for several siblings, they are in the processor's caches when they are needed.
+/// Threads: everything at any time.
+class Footprint {
+    static constexpr std::size_t kRuns = 7;
+
+public:
+    Footprint() = default;
+    /// A copy is empty.
+    Footprint(const Footprint&) {}
+    Footprint& operator=(const Footprint&) { return *this; }
+
+    void fetch() const {
+        for (const auto& noted : _runs) {
+            const std::uintptr_t run = noted.load(std::memory_order_relaxed);
+            if (run == 0) break;
+            prefetchLines(run & ~(kCacheLine - 1), run & (kCacheLine - 1));
+        }
+    }
+
+    /// Notes what is read on the way into one tile. What is noted already is not written again.
+    class Notes {
+    public:
+        explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
+        ~Notes() {
+            if (_next < kRuns) note(0);
+        }
+        Notes(const Notes&) = delete;
+        Notes& operator=(const Notes&) = delete;
+
+        /// Requires: fewer lines than a cache line has bytes.
+        void add(const void* begin, unsigned int lines) {
+            if (_next < kRuns) note((reinterpret_cast<std::uintptr_t>(begin) & ~(kCacheLine - 1)) | lines);
+        }
+
+    private:
+        void note(std::uintptr_t run) {
+            std::atomic<std::uintptr_t>& noted = _runs[_next++];
+            if (noted.load(std::memory_order_relaxed) != run) noted.store(run, std::memory_order_relaxed);
+        }
+
+        std::array<std::atomic<std::uintptr_t>, kRuns>& _runs;
+        std::size_t _next = 0;
+    };
+
+private:
+    // the address of a cache line, and in its low bits how many lines are read from there; 0 follows the last one
+    mutable std::array<std::atomic<std::uintptr_t>, kRuns> _runs{};
+};
+
+}  // namespace osgAnalyticBin
