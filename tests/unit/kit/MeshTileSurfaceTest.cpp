@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Surfaces of meshes, on other globes too: from an 11 km body to Saturn, oblate and prolate extremes, each of them in
-// metres, in kilometres and with an equatorial radius of one. Oracle: samples of the triangles that are drawn, taken
-// back to latitude, longitude and altitude.
+// Surfaces of meshes. Oracle: samples of the triangles that are drawn, taken back to latitude, longitude and altitude.
 
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 #include "TileSurfaceCases.h"
+#include "VpbMesh.h"
 
 #include <gtest/gtest.h>
 #include <osg/Billboard>
@@ -17,76 +16,18 @@
 #include <osg/PagedLOD>
 #include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
-#include <osgTerrain/Layer>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <support/GridMesh.h>
-#include <support/Planets.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test::surfaces {
 namespace {
 
-// A mesh as VirtualPlanetBuilder makes it: texture coordinates over the tile, skirts of one depth, in the frame of
-// its centre.
-struct VpbMesh {
-    GeodeticBin extents;
-    unsigned int posts = 17;
-    double skirt = 5000.0;
-    double low = -500.0, high = 3000.0;
-};
-
-osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random,
-                                               const osg::EllipsoidModel& model = *kModel) {
-    const core::Ellipsoid ellipsoid(model.getRadiusEquator(), model.getRadiusPolar());
-    const core::Geodetic center{c.extents.latitude().middle(), c.extents.longitude().middle(), 0.0};
-    osg::Matrixd frame;
-    model.computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, frame);
-    const osg::Matrixd toLocal = osg::Matrixd::inverse(frame);
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
-    const osg::ref_ptr<osg::DrawElementsUShort> triangles = gridTriangles<osg::DrawElementsUShort>(c.posts);
-    const unsigned int n = c.posts;
-    const auto add = [&](unsigned int i, unsigned int j, double altitude) {
-        const double u = static_cast<double>(i) / (n - 1);
-        const double v = static_cast<double>(j) / (n - 1);
-        const glm::dvec3 ecef =
-            ellipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
-                              c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
-        vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
-        texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
-    };
-    std::vector<double> altitudes;
-    for (unsigned int post = 0; post < n * n; ++post) {
-        altitudes.push_back(random.uniform(c.low, c.high));
-        add(post % n, post / n, altitudes.back());
-    }
-    const std::vector<unsigned int> border = gridBorder(n);
-    for (const unsigned int post : border)
-        if (c.skirt > 0.0) add(post % n, post / n, altitudes[post] - c.skirt);
-    for (std::size_t k = 0; k < border.size() && c.skirt > 0.0; ++k) {
-        const std::size_t next = (k + 1) % border.size(), bottom = n * n;
-        for (const std::size_t i : {bottom + k, bottom + next, std::size_t{border[next]}, bottom + k,
-                                    std::size_t{border[next]}, std::size_t{border[k]}})
-            triangles->push_back(static_cast<GLushort>(i));
-    }
-    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, triangles);
-    geometry->setTexCoordArray(0, texCoords);
-    return placed(geometry, frame);
-}
-
 osg::Geometry& geometryOf(osg::MatrixTransform& tile) {
     return *tile.getChild(0)->asGeode()->getDrawable(0)->asGeometry();
-}
-
-// The triangles with the skirts left out, by the order in which makeVpbTile() adds them.
-std::vector<EcefTriangle> surfaceTriangles(osg::MatrixTransform& tile, unsigned int posts) {
-    std::vector<EcefTriangle> triangles = drawnTriangles(tile).surface;
-    triangles.resize(2 * (posts - 1) * (posts - 1));
-    return triangles;
 }
 
 TEST(TileSurface, TellsSkirtsOfMeshesFromTheirSurface) {
@@ -428,99 +369,6 @@ TEST(TileSurface, ReadsNothingBeyondVerticesAndIndices) {
     fans->add(3, 3);
     EXPECT_FALSE(isKnownWith(fans));
 }
-
-// Of the equatorial radius.
-constexpr double kDeepSkirt = 0.005;
-constexpr double kRelief = 0.001;
-
-class PlanetSurface : public ::testing::TestWithParam<Planet> {
-protected:
-    void setUnit(double unit) {
-        ellipsoid = GetParam().in(unit);
-        radius = ellipsoid.equatorialRadius();
-        model = new osg::EllipsoidModel(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-    }
-
-    Random random{2300};
-    core::Ellipsoid ellipsoid{1.0, 1.0};
-    double radius = 1.0;
-    osg::ref_ptr<osg::EllipsoidModel> model;
-};
-
-TEST_P(PlanetSurface, HoldsMeshes) {
-    for (const double unit : GetParam().units()) {
-        setUnit(unit);
-        for (const double south : {-70.0, -10.0, 0.0, 35.0, 69.0}) {
-            const GeodeticBin extents = GeodeticBin::fromDegrees({south, south + 20.0}, {170.0, 190.0}, {0.0, 0.0});
-            const double low = random.uniform(-kRelief, kRelief) * radius;
-            const double high = low + (random.chance(0.5) ? 0.0 : kRelief * radius);
-            const VpbMesh mesh{extents, 9, kDeepSkirt * radius, low, high};
-            const auto tile = makeVpbTile(mesh, random, *model);
-            const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
-            ASSERT_TRUE(surface.bin.valid()) << unit << " at " << south;
-            EXPECT_NEAR(surface.skirt, mesh.skirt, 1e-6 * radius);
-            EXPECT_LE(surface.bin.margin(), 4e-7 * radius);
-            const auto samples = samplesOf(surfaceTriangles(*tile, mesh.posts), 8);
-            EXPECT_LE(metresOutside(surface.bin, samples, ellipsoid), surface.bin.margin()) << unit << " at " << south;
-            const core::Interval truth = altitudesOf(samples, ellipsoid);
-            const double rounding = 1e-5 * radius;
-            const core::Interval& bound = surface.bin.bin().altitude();
-            EXPECT_LE(bound.upper, truth.upper + rounding);
-            EXPECT_GE(bound.lower, truth.lower - surface.bin.sag() - rounding);
-            EXPECT_LE(surface.bin.sag(), 1.8 * (high - truth.lower) + rounding);
-        }
-    }
-}
-
-TEST_P(PlanetSurface, HoldsTerrainTiles) {
-    for (const double unit : GetParam().units()) {
-        setUnit(unit);
-        const bool isEarthLike = std::abs(ellipsoid.eccentricitySquared()) < 0.1;
-        for (const double south : {-90.0, -45.0, 0.0, 35.0}) {
-            for (const float scale : {1.0f, 3.0f, 0.25f, -2.0f}) {
-                const GeodeticBin extents = GeodeticBin::fromDegrees({south, south + 45.0}, {-45.0, 0.0}, {0.0, 0.0});
-                const double low = random.uniform(-0.002, 0.002) * radius;
-                const auto tile = makeTerrainTile(extents, 17, 17, [&](unsigned int, unsigned int) {
-                    return static_cast<float>(low + random.uniform() * kRelief * radius);
-                });
-                tile->getElevationLayer()->getLocator()->setEllipsoidModel(model);
-                const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
-                ASSERT_EQ(surface.bin.valid(), isEarthLike) << unit << " at " << south;
-                if (!isEarthLike) continue;
-                EXPECT_LE(surface.bin.margin(), 2e-7 * std::max(radius, ellipsoid.polarRadius()));
-                const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 4);
-                ASSERT_FALSE(samples.empty());
-                const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
-                EXPECT_LE(metresOutside(bin, samples, ellipsoid), bin.margin())
-                    << unit << " at " << south << " scale " << scale;
-                if (scale != 1.0f) continue;
-                const double truth = altitudesOf(samples, ellipsoid).lower;
-                EXPECT_GE(bin.bin().altitude().lower, truth - surface.bin.sag() - bin.margin());
-            }
-        }
-    }
-}
-
-// Mountains of small bodies are a tenth of their radius high; what is far above any is no terrain, in any unit.
-TEST_P(PlanetSurface, TellsTerrainFromWhatIsNone) {
-    for (const double unit : GetParam().units()) {
-        setUnit(unit);
-        const GeodeticBin extents = GeodeticBin::fromDegrees({10.0, 15.0}, {20.0, 25.0}, {0.0, 0.0});
-        const auto isKnown = [&](double altitude) {
-            const auto tile = makeVpbTile({extents, 9, kDeepSkirt * radius, altitude, altitude}, random, *model);
-            return tileSurface(*tile, *model, osg::Matrixd()).bin.valid();
-        };
-        const double metres = radius / GetParam().equatorialRadius;
-        const double mountain = std::min(22000.0 * metres, 0.09 * std::min(radius, ellipsoid.polarRadius()));
-        EXPECT_TRUE(isKnown(mountain));
-        EXPECT_TRUE(isKnown(-std::min(mountain, 0.05 * ellipsoid.polarRadius())));
-        EXPECT_FALSE(isKnown(0.12 * std::max(radius, ellipsoid.polarRadius())));
-        EXPECT_FALSE(isKnown(-0.2 * std::max(radius, ellipsoid.polarRadius())));
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, PlanetSurface, ::testing::ValuesIn(kPlanets),
-                         [](const auto& planet) { return std::string(planet.param.name); });
 
 }  // namespace
 }  // namespace osgAnalyticBin::test::surfaces
