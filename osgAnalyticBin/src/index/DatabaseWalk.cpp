@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../kit/WorkQueue.h"
 #include "FileSurvey.h"
+#include "WorkQueue.h"
 
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 
