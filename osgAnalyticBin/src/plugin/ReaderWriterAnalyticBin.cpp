@@ -18,6 +18,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -28,13 +29,14 @@ constexpr const char* kIndexExtension = "bins";
 std::string ownItems(std::string optionString) {
     std::replace_if(
         optionString.begin(), optionString.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    const std::vector<osgAnalyticBin::CullOptionItem> known = osgAnalyticBin::cullOptionItems();
     std::istringstream items(optionString);
     std::string own;
     for (std::string item; items >> item;) {
         const std::string key = item.substr(0, item.find('='));
-        for (const auto& known : osgAnalyticBin::cullOptionItems()) {
-            if (key == known.key && item != key) own += item + ' ';
-        }
+        const bool isOwn =
+            std::any_of(known.begin(), known.end(), [&](const auto& option) { return key == option.key; });
+        if (isOwn && item != key) own += item + ' ';
     }
     return own;
 }
