@@ -170,7 +170,7 @@ NeededTiles TileTruth::neededTiles(const std::vector<flight::DrawnTile>& tiles, 
     for (const flight::DrawnTile& tile : tiles) {
         const auto known = _bins.find(tile.key);
         const AnalyticBin& bin = known == _bins.end() ? surfaceOf(tile, globe) : known->second;
-        // A tile of which nothing is known is needed.
+        // A tile without a known bin counts as needed.
         if (bin.valid() && !seen.meets(bin)) continue;
         if (bin.valid() && seen.hides(bin))
             ++needed.hidden;

@@ -67,7 +67,7 @@ struct Change {
     std::set<TileId> removed;
 };
 
-/// A builder's way through the tiles of a database: tells which tiles come out as they are, and takes them from there.
+/// Tells a builder which tiles of the database come out as they stand, and takes those over.
 ///
 /// A tile's mesh depends on heights within one spacing of posts around it, or on those between the posts of a coarser
 /// neighbour along the edge; its skirts depend besides on which of its neighbours, of those above them, and of those

@@ -13,7 +13,7 @@ namespace osgbindem {
 
 /// Where a raster that is warped lies on the globe.
 struct WarpedPlace {
-    /// Goes round the globe for a raster that holds a pole.
+    /// For a raster that holds a pole: all longitudes.
     RectDeg extent;
     /// The distance between pixels along parallels where it is least, and along meridians in the middle.
     double eastDeg = 0.0;

@@ -219,7 +219,7 @@ TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
     EXPECT_GT(separated, 20u);
 }
 
-// Counted is what became of a tile, not what its bin alone said: small features are outside.
+// The counts say what became of a tile, not what its bin alone said: small features are outside.
 TEST(CulledCounts, AreThoseOfTheTilesThatAreReachedAlsoOfSmallFeatures) {
     CountedGlobe globe;
     CullView view = CullView::lookAt({5 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 50.0);

@@ -141,7 +141,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     return true;
 }
 
-// The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
+// The same conditions as in AnalyticBinCullCallback::isCulled() and viewOn(), for all tiles together.
 bool TileFamily::culls(const osg::Node& group, const DatabaseView& view) const {
     osg::CullStack& cullStack = view.cullStack;
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();

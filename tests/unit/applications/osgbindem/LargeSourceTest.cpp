@@ -87,7 +87,7 @@ TEST(LargeSource, AMosaicOfFilesIsAsTheWhole) {
 TEST(LargeSource, MemoryChangesNothingThatIsBuilt) {
     GDALAllRegister();
     const TempFolder folder;
-    // A start tile has more posts than what eight threads may have in memory.
+    // A start tile has more posts than eight threads together may hold in memory.
     TestRaster(0.0, 50.0, 0.01, 0.01, 1000, 1000, hills).write(folder.file("fine.tif"));
     std::vector<std::string> words{folder.file("fine.tif"), "--levels", "3", "--cells", "12"};
     words.insert(words.end(), {"-te", "0", "40", "10", "50"});
