@@ -36,6 +36,7 @@ public:
         TileSelection selection;
         const DatabaseView view{*node->asGroup(),
                                 *nv,
+                                CullTraversal::of(*nv),
                                 cullStack,
                                 cullStack.getModelViewMatrix(),
                                 cullStack.getProjectionMatrix(),

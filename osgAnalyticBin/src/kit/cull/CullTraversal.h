@@ -6,6 +6,7 @@
 #include "../Scoped.h"
 #include "../tile/TerrainHider.h"
 #include "DrawnState.h"
+#include "GroundBelow.h"
 #include "HidingView.h"
 #include "TileSelection.h"
 
@@ -15,17 +16,14 @@
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
-#include <glm/vec3.hpp>
 #include <osg/CullStack>
 #include <osg/CullingSet>
 #include <osg/Group>
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Referenced>
-#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
-#include <array>
 #include <cstddef>
 #include <deque>
 #include <utility>
@@ -33,7 +31,7 @@
 
 namespace osgAnalyticBin {
 
-class AnalyticBinCullCallback;
+class CullTraversal;
 class InstalledDatabase;
 
 /// What a database provides to its tiles during its traversal.
@@ -41,6 +39,7 @@ struct DatabaseView {
     osg::Group& root;
     // Of the traversal where the view was made: what has the same matrices below has the same planes.
     osg::NodeVisitor& visitor;
+    CullTraversal& traversal;  // the visitor's state
     osg::CullStack& cullStack;
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
@@ -57,25 +56,6 @@ struct DatabaseView {
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
 };
 
-/// The triangle of the shown terrain that an eye was last above: it usually stays above it for some frames.
-class GroundBelow {
-public:
-    /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal
-    /// meets no triangle, and for terrain tiles that have no mesh yet or whose technique may draw it elsewhere.
-    /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
-    /// triangle of a mesh that has not changed since bins were installed.
-    [[nodiscard]] bool isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
-                               const core::Ellipsoid& ellipsoid);
-
-private:
-    [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
-
-    osg::observer_ptr<const osg::Node> _mesh;
-    osg::observer_ptr<const AnalyticBinCullCallback> _tile;
-    int _uses = 0;
-    std::array<glm::dvec3, 3> _triangle{};  // ECEF
-};
-
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
 /// with the visitor's counters, so that cull threads share nothing.
 class CullTraversal final : public osg::Referenced {
@@ -83,7 +63,7 @@ public:
     explicit CullTraversal(BinStatistics& statistics);
 
     /// The visitor's state, created at the first call.
-    [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
+    [[nodiscard]] OSGANALYTICBIN_EXPORT static CullTraversal& of(osg::NodeVisitor& visitor);
 
     /// The visitor's counters.
     [[nodiscard]] BinStatistics& statistics() const { return _statistics; }

@@ -97,6 +97,7 @@ public:
     explicit SelectionDrawing(const DatabaseView& view)
         : _selection(*view.selection),
           _visitor(view.visitor),
+          _traversal(view.traversal),
           _cullVisitor(isExactly<osgUtil::CullVisitor>(_visitor) ? _visitor.asCullVisitor() : nullptr),
           _cullStack(view.cullStack),
           _canDraw(_cullVisitor && FamilyTile::canDraw(*_cullVisitor)) {}
@@ -119,7 +120,7 @@ public:
         setUndecided(frustum(), _limit);
         if (_visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
         counts.frame = static_cast<unsigned int>(_visitor.getTraversalNumber());
-        CullTraversal::of(_visitor).statistics().add(counts);
+        _traversal.statistics().add(counts);
     }
 
 private:
@@ -182,17 +183,17 @@ private:
         }
         if (kept.way != Way::Tile) return kept.node->accept(_visitor);
         // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again
-        CullTraversal& traversal = CullTraversal::of(_visitor);
         const osg::CullingSet::Mask mask = _cullStack.getCurrentCullingSet().getCullingMask();
         _cullStack.getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
-        traversal.setKept(kept.node, mask);
+        _traversal.setKept(kept.node, mask);
         kept.node->accept(_visitor);
-        traversal.setKept(nullptr, mask);
+        _traversal.setKept(nullptr, mask);
         _cullStack.getCurrentCullingSet().setCullingMask(mask);
     }
 
     TileSelection& _selection;
     osg::NodeVisitor& _visitor;
+    CullTraversal& _traversal;
     osgUtil::CullVisitor* const _cullVisitor;  // null: a visitor of another class
     osg::CullStack& _cullStack;
     const bool _canDraw;
@@ -213,12 +214,11 @@ void TileFamily::draw(osg::Group& group, const DatabaseView& view) const {
                          drawnStateAbove(view.visitor, view.rules, view.states).obeysDepth;
     if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides))
         return SelectionDrawing(view).draw(found);
-    CullTraversal& traversal = CullTraversal::of(view.visitor);
     DatabaseView own = view;
-    own.selection = &traversal.selection();
+    own.selection = &view.traversal.selection();
     own.selection->begin(TileSelection::Conditions::of(view.visitor, view.cullStack));
     {
-        const CullTraversal::DatabaseScope scope(view.visitor, traversal, &own);
+        const CullTraversal::DatabaseScope scope(view.visitor, view.traversal, &own);
         SelectionWalk walk(own, mayHide ? own.eye : nullptr, nullptr);
         SelectionDrawing(own).draw(walk.selectBelow(group, *this));
     }

@@ -152,12 +152,12 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Databas
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
         if (unknown) reportUnknownNearPlane(database, unknown);
         if (!computed || !(computed->least() > 0.0)) {
-            BinStatistics::of(visitor).setNotCovered(computed ? kWhole : kDepths, visitor.getTraversalNumber());
+            view.traversal.statistics().setNotCovered(computed ? kWhole : kDepths, visitor.getTraversalNumber());
             noteHidden({}, last);
             return nullptr;
         }
     }
-    CullTraversal::of(visitor).hiding.clear();
+    view.traversal.hiding.clear();
     const TerrainHider::Hidden hidden =
         last.hider->find({view.cullStack, view.ellipsoid, view.planes, view.shape, view.region, *viewpoint.eye(),
                           viewpoint.nearReach(), computed ? &*computed : nullptr},
@@ -167,7 +167,7 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Databas
         Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
     }
     for (const std::size_t i : hidden.tiles) selection.addOccluded(selection.shown()[i]);
-    BinStatistics& statistics = BinStatistics::of(visitor);
+    BinStatistics& statistics = view.traversal.statistics();
     if (hidden.covered) statistics.setCovered(hidden.covered, visitor.getTraversalNumber());
     if (!hidden.covered) statistics.setNotCovered(hidden.missing, visitor.getTraversalNumber());
     noteHidden(hidden, last);
@@ -219,7 +219,7 @@ bool mayCutTerrain(const DatabaseView& view, const glm::dvec3& eye, double reach
 void tellOthers(const DatabaseView& view, const Horizon& horizon) {
     osgUtil::CullVisitor* const visitor = view.visitor.asCullVisitor();
     if (!visitor || !horizon.nearReach) return;
-    HidingView& hiding = CullTraversal::of(*visitor).hiding;
+    HidingView& hiding = view.traversal.hiding;
     const auto isCutOpen = [&] {
         const double reach = isFinalProjection(view.cullStack) ? *horizon.nearReach : reachOfComputedNear(view);
         const auto eyeToEcef = affineInverse(*view.modelView);
@@ -235,7 +235,7 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     osg::CullStack& cullStack = view.cullStack;
     const core::CoveredRegion* const region = view.region;
     const auto miss = [&](const char* condition) {
-        if (condition) BinStatistics::of(visitor).setNotCovered(condition, visitor.getTraversalNumber());
+        if (condition) view.traversal.statistics().setNotCovered(condition, visitor.getTraversalNumber());
         return condition != nullptr;
     };
     if (miss(missingToHide(view, database, options))) return {};
@@ -244,11 +244,11 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     const bool isMap = view.ellipsoid.isPlane();
     const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    CullTraversal::LastView& last = CullTraversal::of(visitor).lastView(database);
+    CullTraversal::LastView& last = view.traversal.lastView(database);
     if (isHoleTakenForGranted(options.occlusion, last)) return {};
     view.expectsHole = last.holes > 0;
     // what is hidden among other nodes may be worth a search, too
-    HidingView& hiding = CullTraversal::of(visitor).hiding;
+    HidingView& hiding = view.traversal.hiding;
     if (hiding.isInUse(visitor)) last.resting = std::min(last.resting, kShortestRest);
     if (hiding.takeWorth()) last.rest = last.resting = 0;
     const auto note = [&](Horizon found) {
@@ -362,6 +362,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     const CullOptions options = _database->options();
     DatabaseView view{node,
                       nv,
+                      traversal,
                       cullStack,
                       cullStack.getModelViewMatrix(),
                       cullStack.getProjectionMatrix(),

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <glm/vec3.hpp>
+#include <osg/Matrixd>
+#include <osg/Node>
+#include <osg/observer_ptr>
+
+#include <array>
+
+namespace osgAnalyticBin {
+
+/// A tile's own mesh, where it is drawn.
+struct Ground {
+    osg::Node& mesh;
+    const osg::Matrixd& localToEcef;
+    double low;  ///< metres above the ellipsoid; the mesh is between low and high
+    double high;
+    bool isAsRead;  ///< the mesh has not changed since bins were installed
+};
+
+/// The triangle of the shown terrain that an eye was last above: it usually stays above it for some frames.
+class GroundBelow {
+public:
+    /// Whether the mesh is below the eye along the ellipsoid's normal. False in doubt: where the normal meets no
+    /// triangle, and for terrain tiles that have no mesh yet.
+    /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
+    /// triangle of a mesh that is as it was read.
+    [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);
+
+private:
+    [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
+
+    osg::observer_ptr<const osg::Node> _mesh;
+    osg::Matrixd _localToEcef;
+    int _uses = 0;
+    std::array<glm::dvec3, 3> _triangle{};  // ECEF
+};
+
+}  // namespace osgAnalyticBin
