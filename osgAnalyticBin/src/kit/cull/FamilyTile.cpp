@@ -7,7 +7,6 @@
 #include "../Spheres.h"
 #include "../tile/Carrier.h"
 #include "CullScopes.h"
-#include "DrawnState.h"
 
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -66,9 +65,12 @@ bool isRelative(const osg::Transform& transform) {
 }
 
 // Whether a traversal goes through the node as if it had no cull callback.
-bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
+bool isPassive(const osg::Node& node, const osg::NodeVisitor& visitor, const osg::CullSettings& settings) {
     const osg::Callback* const callback = node.getCullCallback();
-    return visitor.validNodeMask(node) && (!callback || isIdle(*callback, visitor));
+    return visitor.validNodeMask(node) && (!callback || isIdle(*callback, settings));
+}
+bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
+    return isPassive(node, visitor, visitor);
 }
 
 // The mesh of an osgTerrain tile, which is drawn whole. Returns: nullptr where the tile has none yet, or another than
@@ -295,19 +297,20 @@ bool FamilyTile::isAlone(const osg::Node& tile, const osg::CullSettings& setting
     return !nested || isIdle(*nested, settings);
 }
 
-bool FamilyTile::isBareMesh(const osg::NodeVisitor& visitor) const {
+bool FamilyTile::isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
+                              const StateRules& rules) const {
+    if (!part(0) || !isMeshAsKnown(visitor, settings)) return false;
     for (std::size_t i = 0; part(i); ++i) {
-        const osg::Node& node = *_parts[i].node;
+        const osg::Node& node = *part(i);
         const Kind kind = _parts[i].kind;
-        const bool isBare = kind != Kind::Unknown && kind != Kind::Terrain && visitor.validNodeMask(node) &&
-                            !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
-                            !node.getEventCallback();
-        if (!isBare || (kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(node)))) return false;
+        const bool isKnown = kind != Kind::Unknown && kind != Kind::Terrain;
+        if (!isKnown || node.getUpdateCallback() || node.getEventCallback() || !drawnStateOf(node, rules).hides)
+            return false;
         if (kind != Kind::Geometry) continue;
         const auto& drawable = static_cast<const osg::Drawable&>(node);
         if (drawable.getDrawCallback() || drawable.getComputeBoundingBoxCallback()) return false;
     }
-    return part(0) != nullptr;
+    return true;
 }
 
 // The other modes of near and far planes keep the frustum in the mesh's frame.
@@ -320,7 +323,7 @@ bool FamilyTile::canDraw(osgUtil::CullVisitor& visitor) {
 }
 
 bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const {
-    if (!_isDrawn || !isMeshAsKnown(visitor)) return false;
+    if (!_isDrawn || !isMeshAsKnown(visitor, visitor)) return false;
     Delivery delivery(visitor, _bounded, undecided);
     if (_parts.front().kind == Kind::Terrain)
         return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), !_isOwnMesh);
@@ -329,7 +332,7 @@ bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) 
 }
 
 std::optional<double> FamilyTile::farthest(const osgUtil::CullVisitor& visitor) const {
-    if (!_isDrawn || !isMeshAsKnown(visitor)) return std::nullopt;
+    if (!_isDrawn || !isMeshAsKnown(visitor, visitor)) return std::nullopt;
     const osg::Matrixd& modelView = *visitor.getModelViewMatrix();
     double farthest = -std::numeric_limits<double>::infinity();
     const auto add = [&](const osg::Drawable& drawable, const osg::MatrixTransform* transform) {
@@ -361,18 +364,17 @@ bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
     return _isOwnMesh || (_parts.front().kind == Kind::Terrain && isPassive(*_parts.front().node, visitor));
 }
 
-bool FamilyTile::isMeshAsKnown(const osgUtil::CullVisitor& visitor) const {
+bool FamilyTile::isMeshAsKnown(const osg::NodeVisitor& visitor, const osg::CullSettings& settings) const {
     for (std::size_t i = 0; part(i); ++i) {
         const Part& known = _parts[i];
         const bool isTile = i == 0 && _isOwnMesh;
-        if (!isTile && !isPassive(*known.node, visitor)) return false;
-        if (known.kind == Kind::Geometry || known.kind == Kind::Terrain) continue;
-        const osg::Group& group = static_cast<const osg::Group&>(*known.node);
-        if (group.getNumChildren() != known.children) return false;
-        if (known.kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(group))) return false;
-        for (std::size_t k = i + 1; part(k); ++k) {
-            if (_parts[k].above == i && group.getChild(_parts[k].place) != _parts[k].node) return false;
-        }
+        if (!isTile && !isPassive(*known.node, visitor, settings)) return false;
+        if (known.kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(*known.node))) return false;
+        if (i == 0) continue;
+        // each group among the parts is above one
+        const Part& above = _parts[known.above];
+        const osg::Group& group = static_cast<const osg::Group&>(*above.node);
+        if (group.getNumChildren() != above.children || group.getChild(known.place) != known.node) return false;
     }
     return true;
 }

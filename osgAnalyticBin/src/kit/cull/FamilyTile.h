@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "DrawnState.h"
 #include "Footprint.h"
 #include "Prefetch.h"
 
@@ -74,9 +75,11 @@ public:
     /// vertical scale. Requires: a mesh.
     [[nodiscard]] bool isEnteredUntested(const osgUtil::CullVisitor& visitor) const;
 
-    /// Whether a traversal draws the whole mesh, by what is quickly known: all parts are of classes that draw
-    /// everything below them, and have neither states nor callbacks. False also for tiles of osgTerrain.
-    [[nodiscard]] bool isBareMesh(const osg::NodeVisitor& visitor) const;
+    /// Whether a traversal draws the whole mesh, by what is quickly known: all parts are as they were, of classes that
+    /// draw everything below them, and neither states nor callbacks leave anything out. False also for tiles of
+    /// osgTerrain.
+    [[nodiscard]] bool isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
+                                    const StateRules& rules) const;
 
     /// The memory that was read when the walk last went through the tile to a finer level.
     [[nodiscard]] const Footprint& wayThrough() const { return _wayThrough; }
@@ -93,7 +96,7 @@ private:
         Kind kind = Kind::Unknown;
         unsigned char above = 0;     // number of its parent among the parts; the first has none
         unsigned char place = 0;     // index among the parent's children
-        unsigned char children = 0;  // number of children of a group or transform
+        unsigned char children = 0;  // number of children of a group or transform; 0: not known
     };
     /// The mesh whose bound is known to be computed. osgTerrain makes meshes in the update traversal, and OSG computes
     /// their bounds in all cull threads at once: one may read what another is writing.
@@ -113,7 +116,7 @@ private:
     [[nodiscard]] static osg::Node* meshOf(osg::Node& tile, osg::PagedLOD* paged);
     [[nodiscard]] bool append(osg::Node& node, std::size_t& count);
     [[nodiscard]] bool canBeDrawn();
-    [[nodiscard]] bool isMeshAsKnown(const osgUtil::CullVisitor& visitor) const;
+    [[nodiscard]] bool isMeshAsKnown(const osg::NodeVisitor& visitor, const osg::CullSettings& settings) const;
 
     osg::ref_ptr<const AnalyticBinCullCallback> _callback;
     const osg::Callback* _anyCallback = nullptr;  // the same, found in fewer steps

@@ -225,7 +225,7 @@ bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const
 // Whether all of a tile's own mesh is drawn.
 bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
                                  const FamilyTile* member) const {
-    if (member && member->isMesh(mesh) && member->isBareMesh(_visitor)) return true;
+    if (member && member->isMesh(mesh) && member->isDrawnWhole(_visitor, _view.cullStack, _view.rules)) return true;
     const InstalledTile* const installed = tile.getInstalledTile();
     const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
     bool hasDrawable = false;
@@ -280,9 +280,9 @@ bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius, cor
 bool SelectionWalk::isLeftOutInView(const Tile& tile, const osg::Node& mesh) const {
     if (tile.isOutOfView && !_isBelowOutOfView) return false;
     // OSG may enter the mesh also where it is to be drawn directly
-    const bool hasOwnBound = BoundWatch::hasOwnBound(mesh), isScaled = _view.shape.verticalScale != 1.0;
-    if ((hasOwnBound || (isScaled && tile.isEnteredByOsg)) && isLeftOut(mesh)) return true;
-    return _isBelowOutOfView && (hasOwnBound || isScaled || !isBesideFrustum(sphereOf(mesh)));
+    const bool isScaled = _view.shape.verticalScale != 1.0;
+    if (isLeftOut(mesh) && ((isScaled && tile.isEnteredByOsg) || BoundWatch::hasOwnBound(mesh))) return true;
+    return _isBelowOutOfView && (isScaled || !isBesideFrustum(sphereOf(mesh)) || BoundWatch::hasOwnBound(mesh));
 }
 
 }  // namespace osgAnalyticBin
