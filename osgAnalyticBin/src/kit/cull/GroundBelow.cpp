@@ -72,8 +72,8 @@ bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) c
 bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
-    // a mesh may change without a word: a result is used for a few frames only
-    constexpr int kMostUses = 16;
+    // a mesh may change without a word: a result is used for a second or so
+    constexpr int kMostUses = 60;
     const bool isSame = ground.isAsRead && _mesh.get() == &ground.mesh && _localToEcef == ground.localToEcef;
     if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;
