@@ -17,6 +17,7 @@
 #include <osg/MatrixTransform>
 #include <osg/Switch>
 
+#include <cstddef>
 #include <functional>
 #include <set>
 #include <string>
@@ -307,6 +308,45 @@ TEST(UndergroundEyes, HaveNoHorizon) {
         EXPECT_FALSE(drawsAntipode(40900.0));
         EXPECT_TRUE(drawsAntipode(20000.0)) << isDeclared;
     }
+}
+
+// The eye is in the mesh of tile 19; all tiles have finer levels, which are due where `isDue` says so.
+struct AwaitedGround : MeshGlobe {
+    struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
+        void requestNodeFile(const std::string&, osg::NodePath& path, float, const osg::FrameStamp*,
+                             osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
+            nodes.insert(path.back());
+        }
+        std::set<const osg::Node*> nodes;
+    };
+
+    explicit AwaitedGround(bool isGroundDue) : MeshGlobe(40000.0) {
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const float range = i != 19 || isGroundDue ? 1e9F : 0.0F;
+            tiles[i]->setRange(0, range, 1e10F);
+            tiles[i]->setRange(1, 0.0F, range);
+        }
+        installBins(*root);
+        visitor->setDatabaseRequestHandler(requests);
+    }
+    // Whether the antipode is asked for. It has to be drawn.
+    bool asksForAntipode() {
+        requests->nodes.clear();
+        EXPECT_TRUE(drawsAntipode(20000.0));
+        return requests->nodes.count(tiles[15]) > 0;
+    }
+
+    osg::ref_ptr<Requests> requests = new Requests;
+};
+
+TEST(AwaitedGround, IsLoadedBeforeWhatTheHorizonWillHide) {
+    AwaitedGround globe(true);
+    for (int view = 0; view < 120; ++view) ASSERT_FALSE(globe.asksForAntipode()) << view;
+    EXPECT_TRUE(globe.requests->nodes.count(globe.tiles[19]));
+    EXPECT_TRUE(globe.asksForAntipode()) << "the ground does not come";
+    EXPECT_FALSE(globe.drawsAntipode(41000.0));
+    EXPECT_FALSE(globe.asksForAntipode()) << "it may come now";
+    EXPECT_TRUE(AwaitedGround(false).asksForAntipode()) << "nothing finer is due";
 }
 
 TEST(Undo, RestoresAllThatWasChanged) {

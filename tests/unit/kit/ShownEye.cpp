@@ -46,7 +46,8 @@ public:
                                 {},
                                 &selection,
                                 &selection};
-        eye = eyeAboveWhatIsShown(view, *viewpoint, _deepest, depth);
+        const auto found = eyeAboveWhatIsShown(view, *viewpoint, _deepest, depth);
+        if (found && found->isAboveGround) eye = found->horizon;
     }
 
     double depth;

@@ -82,6 +82,21 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     return isCulled;
 }
 
+/// While it exists, the visitor asks for no files.
+class NoRequests {
+public:
+    explicit NoRequests(osg::NodeVisitor& visitor) : _visitor(visitor), _handler(visitor.getDatabaseRequestHandler()) {
+        _visitor.setDatabaseRequestHandler(nullptr);
+    }
+    ~NoRequests() { _visitor.setDatabaseRequestHandler(_handler.get()); }
+    NoRequests(const NoRequests&) = delete;
+    NoRequests& operator=(const NoRequests&) = delete;
+
+private:
+    osg::NodeVisitor& _visitor;
+    const osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _handler;
+};
+
 /// Whether a tile is a small feature, by the sphere about its bin and by OSG's own, which may be larger.
 [[nodiscard]] inline bool isSmallTile(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere,
                                       const osg::Node& tile) {

@@ -54,6 +54,7 @@ struct DatabaseView {
     const core::CoveredRegion* region = nullptr;  // that is covered; null: the globe
     bool expectsHole = false;                     // as in the last view
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
+    const core::HorizonEye* fileEye = nullptr;    // no files are asked for yet behind its horizon; null: for all tiles
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
@@ -106,6 +107,7 @@ public:
     /// Results about a database.
     struct LastView {
         double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
+        unsigned int waits = 0;            ///< views in a row in which finer ground below the eye was awaited
         unsigned int holes = 0;            ///< views since a search last did not come to nothing
         unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;          ///< how many of them are left

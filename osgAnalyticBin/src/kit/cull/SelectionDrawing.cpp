@@ -12,6 +12,7 @@
 
 #include <osgUtil/CullVisitor>
 
+#include <optional>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -157,6 +158,8 @@ private:
         places.enter(kept.place);
         setUndecided(frustum(), undecided);
         const PlanesBelow planes(_cullStack, undecided);
+        std::optional<NoRequests> withoutFiles;
+        if (kept.waits) withoutFiles.emplace(_visitor);
         enter(kept);
     }
 

@@ -132,7 +132,10 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
         isOneAwaited = isOneAwaited || i >= children;
     }
     // the last child stands in for one that is awaited
-    if (isOneAwaited && children > 0 && !isOwnShown) searchChild(node, children - 1, tile, false);
+    if (isOneAwaited && children > 0 && !isOwnShown) {
+        const Scoped awaited(_isFinerAwaited, byDistance);
+        searchChild(node, children - 1, tile, false);
+    }
     if (((byDistance && due == 0) || children == 0) && !isBeside(tile)) doubt();
 }
 
@@ -152,7 +155,7 @@ core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
 
 void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     if (tile.isAboutEye && _search.place->altitude <= surfaceOf(tile).upper)
-        _nearGround.push_back({&tile.callback, &mesh});
+        _nearGround.push_back({&tile.callback, &mesh, _isFinerAwaited});
     // tiles about the eye are searched even beside the frustum, for the ground alone
     if (tile.isAboutEye && isBeside(tile)) return;
     const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();

@@ -212,16 +212,17 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
-    tile.kept = keep(node, &member, isDirect ? way : Way::Tile);
+    const bool waits = _view.fileEye && family.block().isHidden(slot, *_view.fileEye);
+    tile.kept = keep(node, &member, isDirect ? way : Way::Tile, waits);
     tile.isEnteredByOsg = tile.isEnteredByOsg || member.paged();
     const Scoped segment(_segment, TileSelection::kNone), in(_in, TileSelection::kNone);
     if (_searches) searchTile(node, member.paged(), tile);
     _selection.endBelow(tile.kept);
 }
 
-TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* member, Way way) {
+TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* member, Way way, bool waits) {
     const auto end = static_cast<Number>(_selection.kept().size() + 1);
-    return _selection.keep({&node, member, _in, end, _undecided, way, _searches, false});
+    return _selection.keep({&node, member, _in, end, _undecided, way, _searches, false, waits});
 }
 
 // As osg::PagedLOD::traverse() where one child is shown and no file is asked for. Returns: false where it is not so.

@@ -62,6 +62,7 @@ public:
     struct NearGround {
         const AnalyticBinCullCallback* tile;
         osg::Node* mesh;
+        bool isFinerAwaited;  ///< it stands in for a finer level
     };
     [[nodiscard]] const std::vector<NearGround>& nearGround() const { return _nearGround; }
     /// @}
@@ -101,7 +102,7 @@ private:
     [[nodiscard]] static core::Interval surfaceOf(const Tile& tile);
     void show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel);
 
-    [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way);
+    [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way, bool waits = false);
     void doubt() { _hasHole = _hasHole || _searches; }
     [[nodiscard]] DrawnState stateOf(const osg::Node& node) const;
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
@@ -152,6 +153,7 @@ private:
     bool _isDoubtful = false;                // below something that may not be drawn
     bool _isBelowOutOfView = false;          // below a sphere that is out of view
     bool _isChoiceUnknown = false;           // below a choice of levels that may turn out otherwise
+    bool _isFinerAwaited = false;            // in a level that stands in for a finer one
 
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;

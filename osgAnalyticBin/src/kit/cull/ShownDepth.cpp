@@ -35,12 +35,23 @@ bool isBelow(const SelectionWalk::NearGround& close, const core::Geodetic& place
         view.ellipsoid);
 }
 
+// Whether the eye is above the ground, or will be, once finer meshes come.
+enum class AboveGround { Yes, NotYet, Unknown };
+
+AboveGround aboveGround(const DatabaseView& view, const SelectionWalk& walk,
+                        const std::optional<core::Geodetic>& place) {
+    AboveGround above = AboveGround::Yes;
+    for (const SelectionWalk::NearGround& close : walk.nearGround()) {
+        if (isBelow(close, *place, view)) continue;
+        if (!close.isFinerAwaited) return AboveGround::Unknown;
+        above = AboveGround::NotYet;
+    }
+    return above;
+}
+
 // Whether all that hides is drawn, and the eye is above it.
 bool isTrusted(const DatabaseView& view, const SelectionWalk& walk, const std::optional<core::Geodetic>& place) {
-    const std::vector<SelectionWalk::NearGround>& ground = walk.nearGround();
-    return !walk.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const SelectionWalk::NearGround& close) {
-        return isBelow(close, *place, view);
-    }) && walk.areMeshesDrawn();
+    return !walk.hasHole() && aboveGround(view, walk, place) == AboveGround::Yes && walk.areMeshesDrawn();
 }
 
 // Selects for an eye; null: nothing is hidden.
@@ -52,8 +63,8 @@ SelectionWalk walkFor(const DatabaseView& view, const core::HorizonEye* eye, con
 
 }  // namespace
 
-std::optional<core::HorizonEye> eyeAboveWhatIsShown(const DatabaseView& view, const Viewpoint& viewpoint,
-                                                    double deepest, double& depth) {
+std::optional<FoundEye> eyeAboveWhatIsShown(const DatabaseView& view, const Viewpoint& viewpoint, double deepest,
+                                            double& depth) {
     // A deeper occluder has a wider horizon, over which more may be seen that is deeper still. Raised from zero to what
     // is found until nothing deeper is, the depth is the least that will do.
     constexpr int kMostRounds = 16;
@@ -79,13 +90,17 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const DatabaseView& view, co
             // a near plane that cuts the terrain shows the inside of the globe, so no deeper occluder may be used
             const double belowEye = place && place->altitude < 0.0 ? step - place->altitude : 0.0;
             const bool isCutOpen = !viewpoint.above(ellipsoid, std::max(depth, belowEye));
-            return !isCutOpen && isTrusted(view, lowest, place) ? eye : std::nullopt;
+            if (isCutOpen) return std::nullopt;
+            const AboveGround above = aboveGround(view, lowest, place);
+            if (above == AboveGround::Unknown || !lowest.areMeshesDrawn()) return std::nullopt;
+            return FoundEye{*eye, above == AboveGround::Yes};
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
         depth = std::min((round < kExactRounds ? 1.0 : kRoom) * lowest.depth(), deepest);
     }
     depth = 0.0;
-    return std::isfinite(deepest) ? eyeAboveDepth(view, viewpoint, deepest) : std::nullopt;
+    const auto eye = std::isfinite(deepest) ? eyeAboveDepth(view, viewpoint, deepest) : std::nullopt;
+    return eye ? std::optional(FoundEye{*eye, true}) : std::nullopt;
 }
 
 std::optional<core::HorizonEye> eyeAboveDepth(const DatabaseView& view, const Viewpoint& viewpoint, double depth) {

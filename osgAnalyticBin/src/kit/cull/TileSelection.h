@@ -59,6 +59,7 @@ public:
         Way way;
         bool isSearched;  ///< what it shows is among the shown tiles
         bool isOccluded;  ///< behind terrain
+        bool waits;       ///< drawn as it is: its files are asked for later
     };
 
     struct Segment {

@@ -63,12 +63,21 @@ bool isHoleTakenForGranted(OcclusionUse use, CullTraversal::LastView& last) {
     return true;
 }
 
+// After a jump to low above the ground the eye may be below coarse meshes, until finer ones come. What the horizon will
+// hide then is drawn, but its finer levels would come for nothing. They are asked for if the ground does not come.
+bool isWaiting(const std::optional<FoundEye>& found, CullTraversal::LastView& last) {
+    constexpr unsigned int kLongest = 120;
+    last.waits = found && !found->isAboveGround ? last.waits + 1 : 0;
+    return last.waits > 0 && last.waits <= kLongest;
+}
+
 // What is hidden by the horizon in a view.
 struct Horizon {
     std::optional<core::HorizonEye> eye;
-    bool isSelected = false;           // what is drawn is selected already
-    std::optional<double> nearReach;   // of an eye, see Viewpoint
-    osg::ref_ptr<TerrainHider> hider;  // null: terrain hides nothing
+    std::optional<core::HorizonEye> fileEye;  // see DatabaseView
+    bool isSelected = false;                  // what is drawn is selected already
+    std::optional<double> nearReach;          // of an eye, see Viewpoint
+    osg::ref_ptr<TerrainHider> hider;         // null: terrain hides nothing
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
@@ -252,7 +261,7 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     if (hiding.isInUse(visitor)) last.resting = std::min(last.resting, kShortestRest);
     if (hiding.takeWorth()) last.rest = last.resting = 0;
     const auto note = [&](Horizon found) {
-        last.holes = found.isSelected ? 0 : last.holes + 1;
+        last.holes = found.isSelected || found.fileEye ? 0 : last.holes + 1;
         if (viewpoint->eye()) found.nearReach = viewpoint->nearReach();
         return found;
     };
@@ -260,7 +269,7 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
         view.region = nullptr;
         miss(isAboveTerrain(options) ? kNoGaps : "options without skirts=all");
         const auto eye = eyeAboveDepth(view, *viewpoint, deepest);
-        return note({eye, eye.has_value(), {}, {}});
+        return note({eye, {}, eye.has_value(), {}, {}});
     }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.report(Finding::EyeBesideRegion);
@@ -281,7 +290,9 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     constexpr unsigned int kFreshStart = 16;
     if (visitor.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
     const bool hasHorizon = !isMap && !(region && isHorizonPast(*region, *viewpoint));
-    const auto eye = hasHorizon ? eyeAboveWhatIsShown(view, *viewpoint, deepest, last.depth) : std::nullopt;
+    const auto found = hasHorizon ? eyeAboveWhatIsShown(view, *viewpoint, deepest, last.depth) : std::nullopt;
+    const auto eye = found && found->isAboveGround ? std::optional(found->horizon) : std::nullopt;
+    const auto fileEye = isWaiting(found, last) ? std::optional(found->horizon) : std::nullopt;
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(view, *viewpoint));
     osg::ref_ptr<TerrainHider> hider;
@@ -292,7 +303,7 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
         miss("an eye above the ground, and tiles in view without holes and callbacks");
     }
     // where there is no horizon and occlusion rests there was no search
-    return !hasHorizon && !findsOccluded ? Horizon() : note({eye, isSelected, {}, hider});
+    return !hasHorizon && !findsOccluded ? Horizon() : note({eye, fileEye, isSelected, {}, hider});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -381,6 +392,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     if (!horizon.isSelected) view.selection->clear();
     if (horizon.isSelected) tellOthers(view, horizon);
     if (horizon.eye) view.eye = &*horizon.eye;
+    if (horizon.fileEye) view.fileEye = &*horizon.fileEye;
     {
         const CullTraversal::DatabaseScope scope(nv, traversal, &view);
         traverse(&node, &nv);

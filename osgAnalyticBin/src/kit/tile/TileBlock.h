@@ -87,6 +87,10 @@ public:
     /// Holds the columns of all tiles.
     [[nodiscard]] ColumnUnion& columnUnion() const { return *_columnUnion; }
 
+    /// Whether the horizon hides the bin of a tile.
+    [[nodiscard]] bool isHidden(std::size_t slot, const core::HorizonEye& eye) const {
+        return partFrom(slot).bins.hiddenFrom(eye, std::uint64_t{1} << (slot % Part::kMost)) != 0;
+    }
     /// Whether the horizon hides the column of a tile that has its own.
     [[nodiscard]] bool isColumnHidden(std::size_t slot, const core::HorizonEye& eye) const {
         return slot < _columns.size() && eye.hides(_columns[slot]);
