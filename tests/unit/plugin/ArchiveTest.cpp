@@ -81,19 +81,6 @@ TEST_F(Archive, IsDrawnAsItsFilesAreAndEveryTileHasItsBin) {
     }
 }
 
-TEST_F(Archive, FilesOfTheSameNameElsewhereAreNotItsTiles) {
-    const osg::ref_ptr<osg::Node> files = osgDB::readRefNodeFile(_database + ".analyticbin");
-    const std::multiset<std::string> drawn = drawnFrom(*files);
-    const test::TemporaryFolder elsewhere;
-    for (const auto& entry : fs::directory_iterator(_folder.path()))
-        if (entry.path().extension() == ".osgb") (void)elsewhere.write(entry.path().filename().string(), "no tile");
-    osgDB::FilePathList& paths = osgDB::Registry::instance()->getDataFilePathList();
-    paths.push_front(elsewhere.path());
-    const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + ".analyticbin");
-    EXPECT_EQ(drawnFrom(*packed), drawn);
-    paths.pop_front();
-}
-
 // osgarchive reads and writes each file anew, and drops what it does not know.
 TEST_F(Archive, PackedWithoutTheModulesLosesTheDatabasesRequestAndKeepsTheBins) {
     fs::remove(_archive);

@@ -13,7 +13,6 @@
 
 #include <PagedFlight.h>
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <sstream>
 #include <support/Random.h>
@@ -21,9 +20,6 @@
 namespace osgAnalyticBin {
 namespace {
 
-namespace fs = std::filesystem;
-
-using test::CapturedNotes;
 using test::CullView;
 using test::PagedFlight;
 
@@ -143,20 +139,6 @@ TEST_F(FalseSpheres, AreAllThatIsCulledOtherwiseThanByOsg) {
     }
 }
 
-TEST_F(FalseSpheres, TolerateMissingChildren) {
-    fs::remove(_folder / test::kFileWithFalseSphere);
-    Flown set(read());
-    const CullView view = views(1).front();
-    CullView down = view;
-    const osg::Vec3d middle = setIn(*set.scene)->getMatrix().getTrans();
-    const osg::Vec3d up = middle / middle.length();
-    down.modelView = osg::Matrixd::lookAt(middle + up * 700.0, middle, osg::Vec3d(0, 0, 1));
-    set.flight.frames(down, 40);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    // each place is drawn once, at some level: the parent where the child is missing
-    EXPECT_GE(test::cull(*set.scene, down, *visitor).drawn.size(), 9U);
-}
-
 // Callbacks, culling flags, options and expiry of all nodes, as text.
 class Flags : public osg::NodeVisitor {
 public:
@@ -200,21 +182,6 @@ TEST_F(FalseSpheres, FollowOtherOptions) {
     EXPECT_GT(set.keys(view).size(), culled);
     setCullOptions(*set.scene, {});
     EXPECT_EQ(set.keys(view).size(), culled);
-}
-
-TEST_F(FalseSpheres, KeepBrokenFilesApart) {
-    for (const auto& entry : fs::recursive_directory_iterator(_folder / "Data")) {
-        const std::string name = entry.path().filename().string();
-        if (name.find("_L3_") != std::string::npos) fs::resize_file(entry.path(), 300);
-    }
-    Flown set(read());
-    const CapturedNotes notes;
-    const CullView view = views(1).front();
-    set.flight.frames(view, 30);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    EXPECT_FALSE(test::cull(*set.scene, view, *visitor).drawn.empty());
-    // each file is tried once in this second, not in every frame
-    EXPECT_LE(notes.count("could not be read"), 36U);
 }
 
 // A mast that stands out of the tile's sphere, below a view that looks over the sphere.

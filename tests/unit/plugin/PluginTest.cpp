@@ -14,7 +14,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <filesystem>
 #include <sstream>
 #include <string>
 #include <support/CapturedNotes.h>
@@ -126,8 +125,23 @@ TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
 TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
     ASSERT_NE(reader, nullptr);
-    EXPECT_FALSE(reader->supportedOptions().empty());  // which ones: OptionStringTest.cpp
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
+    EXPECT_EQ(reader->supportedOptions().count("method=quadratic|exact|sphere|none"), 1u);
+    const auto listed = reader->supportedOptions().find("heights=LOW..HIGH");
+    ASSERT_NE(listed, reader->supportedOptions().end());
+    const std::string low = std::to_string(static_cast<int>(CullOptions::kTerrainOnEarth.lower));
+    const std::string high = std::to_string(static_cast<int>(CullOptions::kTerrainOnEarth.upper));
+    EXPECT_NE(listed->second.find(low + ".." + high), std::string::npos) << listed->second;
+}
+
+// The option string is one for all plugins.
+TEST_F(Plugin, LeavesToOtherPluginsWhatIsForThemAlone) {
+    const test::CapturedNotes notes;
+    for (const char* text : {"", "speed=9", "OSG_CURL_TIMEOUT=9 precision 17", "noTriStripPolygons flip;colour=red",
+                             "method=exact compressed dds_flip", "precision 17,horizon=off"}) {
+        EXPECT_TRUE(read(".analyticbin", text)) << text;
+    }
+    EXPECT_EQ(notes.count(""), 0u);
 }
 
 TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
@@ -172,22 +186,6 @@ TEST_F(Plugin, ArchivesHoldIndexesBesideTheirDatabases) {
     EXPECT_EQ(error, "");
     osgDB::Registry::instance()->clearArchiveCache();
 }
-
-// Databases that others built; they are not part of the project.
-class ForeignDatabase : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(ForeignDatabase, OpensAndGetsBinsWhereItsGeometryIsKnown) {
-    const std::string file = std::string(SAMPLE_DATA "/vpb/") + GetParam() + "/earth.osgb";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file + ".analyticbin");
-    ASSERT_TRUE(node);
-    if (std::string(GetParam()) == "polygonal") {
-        EXPECT_EQ(counted(*node).count, 1);
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Modes, ForeignDatabase, ::testing::Values("terrain", "polygonal"),
-                         [](const auto& suite) { return std::string(suite.param); });
 
 }  // namespace
 }  // namespace osgAnalyticBin

@@ -27,11 +27,6 @@ protected:
         ASSERT_FALSE(_database.empty());
     }
 
-    // A hundred frames of the stock viewer.
-    static Outcome view(const std::string& arguments, Modules modules = Modules::Present) {
-        return test::runViewer(arguments, modules, "OSG_RUN_FRAME_COUNT=100");
-    }
-
     test::TemporaryFolder _folder;
     std::string _database;
 };
@@ -56,12 +51,6 @@ TEST_F(StockTools, WithTheModulesADatabaseSurvivesOsgconv) {
     EXPECT_EQ(text.find("CullingActive"), std::string::npos);
 }
 
-TEST_F(StockTools, OsgconvListsThePluginsOptions) {
-    const Outcome outcome = test::runOsgconv("--format analyticbin", Modules::Present);
-    EXPECT_EQ(outcome.linesWith("method=quadratic|exact|sphere|none"), 1) << outcome.text;
-    EXPECT_EQ(outcome.linesWith("growth=FACTOR"), 0) << outcome.text;
-}
-
 TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
     const std::string copy = _folder / "copy.osgb";
     const Outcome outcome = test::runOsgconv(
@@ -69,25 +58,6 @@ TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
     EXPECT_NE(outcome.code, 0);
     EXPECT_EQ(outcome.linesWith("bad method \"cube\" (use method=quadratic|exact|sphere|none)"), 1) << outcome.text;
     EXPECT_FALSE(fs::exists(copy));
-}
-
-TEST_F(StockTools, TheViewerRunsUnderEveryThreadingModel) {
-    if (!test::canRunViewer()) GTEST_SKIP() << "xvfb-run or osgviewer is not there";
-    for (const char* model : {"--SingleThreaded", "--CullDrawThreadPerContext", "--DrawThreadPerContext",
-                              "--CullThreadPerCameraDrawThreadPerContext"}) {
-        for (const std::string& name : {_database, _database + ".analyticbin"}) {
-            const Outcome outcome = view(model + (' ' + test::quoted(name)));
-            EXPECT_EQ(outcome.code, 0) << model << ' ' << name << '\n' << outcome.text;
-            EXPECT_EQ(outcome.linesWith("osgAnalyticBin"), 0) << outcome.text;
-        }
-    }
-}
-
-TEST_F(StockTools, TheViewerOpensADatabaseWithoutTheModules) {
-    if (!test::canRunViewer()) GTEST_SKIP() << "xvfb-run or osgviewer is not there";
-    const Outcome outcome = view(test::quoted(_database), Modules::Absent);
-    EXPECT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_EQ(outcome.linesWith("osgAnalyticBin"), 1) << outcome.text;
 }
 
 }  // namespace
