@@ -104,16 +104,6 @@ TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {
     EXPECT_FALSE(globe.draws(*globe.tiles[19], beside(ecefDeg(22.5, -22.5, 1e5))));
 }
 
-TEST(AddedTiles, AreTestedWithTheirSiblings) {
-    AddedGlobe globe;
-    // behind the callback of the database
-    const auto hasFamily = [&] { return globe.scene->getCullCallback()->getNestedCallback() != nullptr; };
-    (void)installBins(*globe.scene, onEarth());
-    globe.addAll();
-    EXPECT_TRUE(hasFamily());
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-}
-
 TEST(AddedTiles, ComeInSeveralThreads) {
     AddedGlobe globe;
     (void)installBins(*globe.scene, onEarth());

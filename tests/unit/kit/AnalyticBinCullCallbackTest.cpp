@@ -103,37 +103,6 @@ TEST(AnalyticBinCullCallback, CullsATileInALocalFrameLikeOneInEcef) {
     }
 }
 
-TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphAlone) {
-    struct MaskReader : osg::NodeCallback {
-        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-            mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
-            traverse(node, nv);
-        }
-        unsigned int mask = 99;
-    };
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    const AnalyticBin inside(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
-    const AnalyticBin across(GeodeticBin::fromDegrees({-1, 1}, {-20, 20}, {0, 100}));
-    const osg::ref_ptr<osg::Group> tiles[] = {test::makeTile("inside", inside, visited),
-                                              test::makeTile("across", across, visited), new osg::Group};
-    std::vector<osg::ref_ptr<MaskReader>> readers;
-    for (const auto& tile : tiles) {
-        const osg::ref_ptr<osg::Group> child = new osg::Group;
-        readers.push_back(new MaskReader);
-        child->setCullCallback(readers.back());
-        child->setCullingActive(false);
-        tile->setCullingActive(false);
-        tile->addChild(child);
-        root->addChild(tile);
-    }
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, lookDown(1e6), *visitor);
-    EXPECT_EQ(readers[0]->mask, 0u);
-    EXPECT_EQ(readers[1]->mask, 3u) << "left and right";
-    EXPECT_EQ(readers[2]->mask, 15u) << "what follows is untouched";
-}
-
 TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     const CullView away = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
     std::set<std::string> visited;
@@ -151,20 +120,6 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, away, *visitor);
     EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
-}
-
-TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {
-    const osg::EllipsoidModel moon(1738100.0, 1736000.0);
-    const AnalyticBin bin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(test::makeTile("moon", bin, visited, {}, moon));
-    root->addChild(test::makeTile("earth", bin, visited));
-    // From within the earth past the moon's surface: the earth's tile is behind the eye.
-    const CullView view = CullView::lookAt({3e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 30.0);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, view, *visitor);
-    EXPECT_EQ(visited, std::set<std::string>{"moon"});
 }
 
 TEST(HorizonCulling, IsUsedWhereItIsAskedForAndHidesNothingThatIsDrawnInFrontOfAll) {

@@ -275,24 +275,6 @@ TEST(HoledGlobe, IsSeenThroughWhereAMeshStandsOutsideOfItsStoredBin) {
     }
 }
 
-TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
-    MeshGlobe globe;
-    installBins(*globe.root, declaredHorizon());
-    AnalyticBinCullCallback& callback = *installedOn(*globe.tiles[15]);
-    const osg::ref_ptr<AnalyticBinCullCallback> read = new AnalyticBinCullCallback;
-    read->setOptionsText(callback.getOptionsText());
-    read->setBinText(callback.getBinText());
-    EXPECT_TRUE(read->getBin().valid());
-    const osg::ref_ptr<osg::CoordinateSystemNode> back = new osg::CoordinateSystemNode;
-    const osg::ref_ptr<osg::Group> tile = new osg::Group;
-    tile->addChild(makeMeshTile(extentsDeg(-45, 0, 135, 180), 0.0));
-    tile->setCullCallback(read);
-    tile->setCullingActive(false);
-    back->addChild(tile);
-    globe.scene = back;
-    EXPECT_TRUE(globe.draws(*tile, MeshGlobe::fromAbove()));
-}
-
 TEST(UndergroundEyes, HaveNoHorizon) {
     for (const bool isDeclared : {false, true}) {
         MeshGlobe globe(40000.0);

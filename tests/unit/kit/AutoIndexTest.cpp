@@ -185,18 +185,6 @@ TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
     }
 }
 
-TEST_F(AutoIndex, TwoAtOnceKeepOneWholeIndex) {
-    for (int i = 0; i < 10; ++i) {
-        for (const std::string& kept : keptFiles()) std::filesystem::remove(kept);
-        open();
-        const osg::ref_ptr<osg::Node> first = _scene;
-        open();
-        EXPECT_TRUE(waitForIndex(*first, kSeconds));
-        EXPECT_TRUE(waitForIndex(*_scene, kSeconds));
-        expectOneWholeIndex();
-    }
-}
-
 TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     for (const IndexUse use : {IndexUse::Off, IndexUse::On}) {
         CullOptions options;

@@ -186,16 +186,6 @@ TEST(BinIndex, ForeignFilesAreRefused) {
     EXPECT_NE(error.find("version"), std::string::npos) << error;
 }
 
-TEST(BinIndex, HugeSizesTakeNoMemory) {
-    // number of files, of tiles, bytes of a name: the head says more than the stream has
-    const std::string bytes = bytesOf(*randomIndex(3));
-    for (const std::size_t at : {12u, 32u, 40u, 48u + 9u, 48u + 9u + 4u, 48u + 9u + 8u}) {
-        std::string huge = bytes;
-        for (std::size_t i = at; i < at + 4; ++i) huge[i] = '\x7f';
-        expectRefused(huge, "offset " + std::to_string(at));
-    }
-}
-
 TEST(BinIndex, WritesAWholeFileOrNone) {
     const test::TemporaryFolder scratch;
     const osg::ref_ptr<BinIndex> index = randomIndex(5);

@@ -11,7 +11,6 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
-#include <osgDB/ReadFile>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -104,25 +103,6 @@ TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
     ASSERT_LT(root.getBin().bin().altitude().upper, 1000.0);
     EXPECT_EQ(root.getSkirt(), kSkirt);
     EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), 0.0);
-}
-
-TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
-    for (const std::string name : {"terrain", "polygonal"}) {
-        const osg::ref_ptr<osg::Node> globe =
-            osgDB::readRefNodeFile(std::string(SAMPLE_DATA) + "/vpb/" + name + "/earth.osgb");
-        if (!globe) GTEST_SKIP() << "no databases of VirtualPlanetBuilder here";
-        ASSERT_EQ(installBins(*globe), 1u);
-        auto& root = dynamic_cast<osg::PagedLOD&>(*globe->asGroup()->getChild(0));
-        EXPECT_EQ(installedOn(root)->getSkirt(), 0.0) << name;
-        const osg::ref_ptr<osg::Node> below = readBelow(root);
-        ASSERT_TRUE(below);
-        ASSERT_GT(below->asGroup()->getNumChildren(), 1u);
-        for (unsigned int i = 0; i < below->asGroup()->getNumChildren(); ++i) {
-            const AnalyticBinCullCallback* tile = installedOn(*below->asGroup()->getChild(i));
-            ASSERT_NE(tile, nullptr) << name;
-            EXPECT_EQ(tile->getSkirt(), 0.0) << name;
-        }
-    }
 }
 
 // A stored bin says nothing of skirts.

@@ -30,13 +30,6 @@ using test::PagedFlight;
 
 const FailedReads::Clock::time_point kStart;
 
-TEST(FailedReads, WhatNeverFailedMayBeRead) {
-    FailedReads failures;
-    failures.note("good", true, kStart);
-    EXPECT_TRUE(failures.mayRead("good", kStart));
-    EXPECT_TRUE(failures.mayRead("unknown", kStart));
-}
-
 TEST(FailedReads, WaitsDoubleFromOneSecondToTen) {
     FailedReads failures;
     auto now = kStart;

@@ -23,7 +23,6 @@
 #include <set>
 #include <string>
 #include <support/CapturedNotes.h>
-#include <support/Random.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
@@ -340,37 +339,6 @@ TEST(FalseBinsOfOtherGlobes, AreFoundWhateverTheirUnit) {
         EXPECT_EQ(installBins(*root), 1u);
         EXPECT_GE(installedOn(*stored)->getBin().bin().altitude().upper, 6999.0 * metre) << metre;
         EXPECT_EQ(notes.count(kWarning), 1u) << metre;
-    }
-}
-
-// Numbers that are finite but whose squares are not.
-TEST(StoredNumbers, OfAnySizeCullNothingThatIsSeen) {
-    const osg::EllipsoidModel wgs84;
-    const core::GeodeticBin extents = extentsDeg(10, 12, 20, 23);
-    const std::vector<osg::Vec3d> seen = samples(AnalyticBin(extents.withAltitude({0.0, 9000.0})), 5);
-    Random random(95);
-    for (const char* altitudes : {"-1e300 12 23 1e300", "-1e155 12 23 9000", "0 12 23 1e155", "-7e6 12 23 9000",
-                                  "-6.3e6 12 23 1e9", "-1e308 12 23 1e308", "0 12 23 1e18"}) {
-        for (const char* rest : {"0", "1e300", "1e155 1e155", "0 1e308", "1e308 1e308", "1e-310 1e-310"}) {
-            const std::string text = std::string("10 20 ") + altitudes + ' ' + rest;
-            const AnalyticBin bin = AnalyticBin::fromText(text);
-            for (const Method method : {Method::Quadratic, Method::Exact}) {
-                CullOptions options;
-                options.method = method;
-                options.horizonUse = HorizonUse::Given;
-                std::set<std::string> reached;
-                const osg::ref_ptr<osg::Group> tile = makeTile("tile", bin, reached, options);
-                const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-                for (int i = 0; i < 20; ++i) {
-                    const osg::Vec3d target = seen[static_cast<std::size_t>(random.integer(0, int(seen.size()) - 1))];
-                    const glm::dvec3 aside = random.direction();
-                    osg::Vec3d eye = target * random.uniform(1.001, 2.0) + osg::Vec3d(aside.x, aside.y, aside.z) * 1e3;
-                    reached.clear();
-                    (void)cull(*tile, CullView::lookAt(eye, target, {0, 0, 1}, 5.0), *visitor);
-                    EXPECT_EQ(reached.size(), 1u) << text << ' ' << methodName(method);
-                }
-            }
-        }
     }
 }
 

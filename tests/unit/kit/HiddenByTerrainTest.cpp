@@ -23,10 +23,8 @@
 #include <osg/PolygonMode>
 #include <osg/Projection>
 
-#include <cmath>
 #include <functional>
 #include <string>
-#include <support/Random.h>
 #include <utility>
 #include <vector>
 
@@ -424,44 +422,6 @@ TEST(HiddenByTerrain, KeepsTheSearchGoingWhereItIsWorthIt) {
     EXPECT_LT(hiddenViews(), 20);
     for (int i = 0; i < 100; ++i) globe.add(behind);
     EXPECT_EQ(hiddenViews(), 40);
-}
-
-// Line of sight against what is left out: random towers and eyes about the ridge, far from its ends.
-TEST(HiddenByTerrain, NeverLeavesOutWhatStandsAboveTheLineOverTheRidge) {
-    ModelsOnGlobe globe;
-    Random random(1741);
-    const auto model = globe.add(kBehindRidge);
-    const double radius = osg::WGS_84_RADIUS_EQUATOR;
-    int hidden = 0, seen = 0;
-    for (int i = 0; i < 1500; ++i) {
-        const double longitude = random.uniform(0.62, 1.9), height = random.logUniform(60.0, 30000.0);
-        const double eyeHeight = random.uniform(200.0, 7000.0);
-        model->setMatrix(osg::Matrixd::translate(ecefDeg(0.1, longitude, height)));
-        const CullView view =
-            CullView::lookAt(ecefDeg(0.1, 0.1, eyeHeight), ecefDeg(0.1, 1.0, eyeHeight), {1, 0, 0}, 100.0);
-        const bool isDrawn = globe.draws(*model, view);
-        // in the plane of the equator: the near edge of the ridge's top is the first thing that may hide the tower
-        const auto at = [&](double degrees, double altitude) {
-            const double angle = degrees * osg::PI / 180.0;
-            return osg::Vec3d((radius + altitude) * std::cos(angle), (radius + altitude) * std::sin(angle), 0.0);
-        };
-        const osg::Vec3d eye = at(0.1, eyeHeight), top = at(longitude, height + 50.0);
-        bool isBlocked = false;
-        for (int k = 0; k <= 200; ++k) {
-            const osg::Vec3d point = eye + (top - eye) * (k / 200.0);
-            const double degrees = std::atan2(point.y(), point.x()) * 180.0 / osg::PI;
-            const bool isOverRidge = degrees > 0.39 && degrees < 0.61;
-            isBlocked = isBlocked || point.length() - radius < (isOverRidge ? 8050.0 : 50.0);
-        }
-        if (isBlocked) {
-            hidden += !isDrawn;
-        } else {
-            ++seen;
-            EXPECT_TRUE(isDrawn) << longitude << " degrees, " << height << " m, from " << eyeHeight << " m";
-        }
-    }
-    EXPECT_GT(hidden, 100);
-    EXPECT_GT(seen, 50);
 }
 
 }  // namespace

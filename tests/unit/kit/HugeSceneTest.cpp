@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Scenes of a shape that no terrain has: very wide, very deep, sharing nodes, naming themselves. The kit's visitors end
-// in a time that grows with the scene alone, and with the stack that OSG's own traversals need.
+// Scenes that are deeper than any terrain. The kit's visitors end with the stack that OSG's own traversals need.
 
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
@@ -24,12 +23,8 @@ namespace {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kDeep = 1500;  // each call takes several times the stack
-constexpr int kWide = 500;
-constexpr int kGroups = 20000;
 #else
 constexpr int kDeep = 10000;
-constexpr int kWide = 5000;
-constexpr int kGroups = 200000;
 #endif
 
 // Nodes each below the one before, the scene at the end. They are taken apart one by one: OSG would do so recursively.
@@ -84,18 +79,6 @@ public:
 
     const osg::ref_ptr<osg::Node> mesh;
 
-    /// One like it, that is watched too.
-    [[nodiscard]] osg::ref_ptr<osg::Node> another() const {
-        return osg::clone(mesh.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES);
-    }
-
-    /// Returns: how many drawables are left to draw where the camera looks at it.
-    [[nodiscard]] static std::size_t drawnIn(osg::Node& scene) {
-        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-        return cull(scene, CullView::lookAt(ecefDeg(11, 21, 1e5), ecefDeg(11, 21, 0), {0, 0, 1}, 60.0), *visitor)
-            .drawn.size();
-    }
-
 private:
     bool isReached(osg::Node& scene, double longitudeDeg) {
         return _reached.in(scene, ecefDeg(11, longitudeDeg, 1e5), ecefDeg(11, longitudeDeg, 0), 60.0).count("mesh") > 0;
@@ -133,41 +116,6 @@ TEST(HugeScenes, TilesMayBeDeep) {
         options.method = method;
         (void)installBins(*chain.root, options);
     }
-}
-
-// Hundreds of thousands of groups (fewer with the address sanitizer), and as many tiles as fit into some seconds. They
-// share vertices and no nodes: OSG tells every parent of a node that its culling changes.
-TEST(HugeScenes, MayBeVeryWide) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    WatchedMesh watched;
-    const osg::ref_ptr<osg::Group> wide = new osg::Group;
-    for (int i = 0; i < kGroups; ++i) wide->addChild(new osg::Group);
-    for (int i = 0; i < kWide; ++i) wide->addChild(makePaged(watched.another(), "none.osgb"));
-    const osg::ref_ptr<osg::PagedLOD> above = makePaged(watched.mesh, "none.osgb");
-    putBelow(*above, wide);
-    root->addChild(above);
-    EXPECT_EQ(watched.installOften(*root), static_cast<std::size_t>(kWide) + 1);
-    EXPECT_EQ(WatchedMesh::drawnIn(*root), static_cast<std::size_t>(kWide));  // in place of the coarser one
-}
-
-// Every node twice below the one above: as many paths as there are bits.
-TEST(HugeScenes, PathsAreAsManyAsTheSceneHas) {
-    WatchedMesh watched;
-    osg::ref_ptr<osg::Node> node = watched.mesh;
-    for (int i = 0; i < 12; ++i) {
-        const osg::ref_ptr<osg::Group> above = i % 2 ? new osg::Group : new osg::MatrixTransform;
-        above->addChild(node);
-        above->addChild(node);
-        node = above;
-    }
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
-    putBelow(*tile, node);
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->addChild(tile);
-    // the tile, and what is below it: a transform that stands in two places
-    EXPECT_EQ(watched.installOften(*root), 3u);
-    EXPECT_TRUE(installedOn(*tile));
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Tiles that might be shared: by osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they
-// have read. A node may then be in a scene already, or be handed to several threads at once.
+// have read. A node may then be in a scene already.
 
-#include "InstallerProbe.h"
-#include "PagedFlight.h"
+#include "CountedReads.h"
 
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
@@ -17,23 +17,15 @@
 #include <osgDB/WriteFile>
 
 #include <cstdlib>
-#include <set>
 #include <string>
-#include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <thread>
 #include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
 namespace {
 
-using test::CullView;
-using test::PagedFlight;
-
 const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
-constexpr int kThreads = 8;
-constexpr int kReads = 25;
 
 osg::ref_ptr<osg::PagedLOD> makeCachedTile(const std::string& fileName) {
     osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
@@ -75,35 +67,10 @@ protected:
         return dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions());
     }
 
-    // Reads the file in many threads at once.
-    void readInThreads(const osgDB::Options& options) const {
-        std::vector<std::thread> threads;
-        for (int i = 0; i < kThreads; ++i) {
-            threads.emplace_back([this, &options] {
-                for (int k = 0; k < kReads; ++k) {
-                    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_file, &options);
-                    EXPECT_NE(callbackIn(node), nullptr);  // never handed out half treated
-                }
-            });
-        }
-        for (std::thread& thread : threads) thread.join();
-    }
-
-    void expectOneVisitEach() const {
-        for (const auto& [node, threads] : _reader->visits.threads()) EXPECT_EQ(threads.size(), 1u);
-    }
-
     test::TemporaryFolder _folder;
     const std::string _file = _folder / "children.osgb";
-    osg::ref_ptr<test::ProbingReader> _reader = new test::ProbingReader;
+    osg::ref_ptr<osgDB::ReadFileCallback> _reader = new test::CountedReads;
 };
-
-TEST_F(ObjectCache, ThreadsThatReadOneFileGetTilesThatWereTreatedOnce) {
-    const auto options = pagingOptions(osgDB::Options::CACHE_ALL);
-    readInThreads(*options);
-    expectOneVisitEach();
-    EXPECT_EQ(_reader->total(), kThreads * kReads) << "it is asked each time";
-}
 
 // As in a simulator that programs its page content.
 TEST_F(ObjectCache, EachCallbackIsAskedWhateverTheNameOfItsFile) {
@@ -144,7 +111,7 @@ TEST_F(ObjectCache, NothingOfOursIsInOsgsCaches) {
     plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
     for (const bool isRead : {false, true}) {
         osgDB::Registry::instance()->clearObjectCache();
-        _reader = isRead ? new test::ProbingReader : nullptr;
+        _reader = isRead ? new test::CountedReads : nullptr;
         osg::ref_ptr<osgDB::Options> options = pagingOptions(osgDB::Options::CACHE_ALL);
         const osg::observer_ptr<osgDB::ReadFileCallback> ours = options->getReadFileCallback();
         osg::ref_ptr<osg::Node> some = osgDB::readRefNodeFile(_file, options);
@@ -185,13 +152,6 @@ TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
     EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");
 }
 
-TEST_F(ObjectCache, WithoutTheHintEveryReadIsFresh) {
-    const auto options = pagingOptions(osgDB::Options::CACHE_NONE);
-    readInThreads(*options);
-    expectOneVisitEach();
-    EXPECT_EQ(_reader->total(), kThreads * kReads);
-}
-
 TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {
     const osg::ref_ptr<osgDB::Options> plain = new osgDB::Options;
     plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
@@ -224,43 +184,20 @@ TEST_F(ObjectCache, InstallationsShareNothing) {
 
 // Others may draw it.
 TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsGetsNoBins) {
-    _reader->keepsOne = true;
+    struct Keeper : osgDB::ReadFileCallback {
+        osgDB::ReaderWriter::ReadResult readNode(const std::string&, const osgDB::Options*) override {
+            return kept.get();
+        }
+        osg::ref_ptr<osg::Node> kept;
+    };
+    const osg::ref_ptr<Keeper> keeper = new Keeper;
+    keeper->kept = osgDB::readRefNodeFile(_file);
+    _reader = keeper;
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->addChild(_reader->readNode(_file, nullptr).getNode());
+    scene->addChild(keeper->kept);
     for (const auto hint : {osgDB::Options::CACHE_NONE, osgDB::Options::CACHE_ALL})
         EXPECT_EQ(osgDB::readRefNodeFile(_file, pagingOptions(hint)), scene->getChild(0));
-    EXPECT_TRUE(_reader->visits.threads().empty());
     EXPECT_EQ(callbackIn(scene->getChild(0)), nullptr);
-}
-
-TEST_F(ObjectCache, ThePagerBringsTilesBackWhereThereIsACache) {
-    const std::string file = test::writeSyntheticDatabase(_folder.path());
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-    options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
-    osgDB::Registry::instance()->setOptions(options);
-    osgDB::Registry::instance()->setReadFileCallback(_reader);
-    CullOptions forgetful;
-    forgetful.expiry = 0.0;
-    installBins(*scene, forgetful);
-    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-    const CullView east = CullView::lookAt(eye, eye + osg::Vec3d(-1, +1, 0), osg::Vec3d(1, 0, 0), 40.0);
-    const CullView west = CullView::lookAt(eye, eye + osg::Vec3d(-1, -1, 0), osg::Vec3d(1, 0, 0), 40.0);
-    {
-        PagedFlight flight(*scene, 10);
-        EXPECT_TRUE(flight.load(east));
-        const std::multiset<std::string> drawn = flight.drawn();
-        EXPECT_TRUE(flight.load(west));
-        flight.frames(west, 30);
-        flight.frame(east);
-        EXPECT_FALSE(flight.wanted().empty());  // tiles have expired
-        EXPECT_TRUE(flight.load(east));
-        EXPECT_EQ(flight.drawn(), drawn);
-    }
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    osgDB::Registry::instance()->setOptions(nullptr);
-    EXPECT_GT(_reader->visits.threads().size(), 2u);
-    expectOneVisitEach();
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "CountedReads.h"
 #include "DatabaseFixture.h"
-#include "InstallerProbe.h"
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -27,7 +26,6 @@
 #include <iterator>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <thread>
 
 namespace osgAnalyticBin {
 namespace {
@@ -147,27 +145,6 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
     EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
-TEST(PagedFlight, BinsAreInstalledInThePagersThreadAlone) {
-    const test::TemporaryFolder folder;
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(test::writeSyntheticDatabase(folder.path()));
-    ASSERT_TRUE(scene);
-    const osg::ref_ptr<test::ProbingReader> reader = new test::ProbingReader;
-    osgDB::Registry::instance()->setReadFileCallback(reader);
-    bool loaded = false;
-    {
-        test::PagedFlight flight(*scene);  // runs the database's own request, update and cull traversals in this thread
-        loaded = flight.load(test::CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0));
-    }
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    ASSERT_TRUE(loaded);
-    EXPECT_GT(reader->total(), 4);
-    EXPECT_EQ(reader->visits.threads().size(), static_cast<std::size_t>(reader->total()));
-    for (const auto& [file, threads] : reader->visits.threads()) {
-        ASSERT_EQ(threads.size(), 1u);
-        EXPECT_NE(threads.front(), std::this_thread::get_id());
-    }
-}
-
 TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
     const osg::ref_ptr<osg::PagedLOD> other = makePagedTile("other.osgb");
     _root->addChild(other);
@@ -273,7 +250,6 @@ protected:
 // Fewer than the scene has at first, so that the pager drops whatever it may.
 constexpr unsigned int kSmallTarget = 10;
 constexpr int kFramesOfNearlyTwoSeconds = 118;
-constexpr int kFramesOfFourSeconds = 240;
 
 TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
     for (const CullOptions& options : {CullOptions(), withExpiry(0.0)}) {
@@ -289,25 +265,6 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
         ASSERT_TRUE(flight.load(look(+1)));
         EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
     }
-}
-
-TEST_F(TurningTheHead, AndNotBackLetsTilesExpire) {
-    installBins(*_scene);
-    PagedFlight flight(*_scene, kSmallTarget);
-    ASSERT_TRUE(flight.load(look(+1)));
-    ASSERT_TRUE(flight.load(look(-1)));
-    const std::size_t both = test::loadedTiles(*_scene);
-    flight.frames(look(-1), kFramesOfFourSeconds);
-    const std::size_t kept = test::loadedTiles(*_scene);
-    EXPECT_LT(kept, both);
-
-    // What is left is what this view needs by itself.
-    osg::ref_ptr<osg::Node> fresh = osgDB::readRefNodeFile(_folder / "globe.osgb");
-    installBins(*fresh);
-    PagedFlight alone(*fresh, kSmallTarget);
-    ASSERT_TRUE(alone.load(look(-1)));
-    EXPECT_EQ(kept, test::loadedTiles(*fresh));
-    EXPECT_EQ(flight.drawn(), alone.drawn());
 }
 
 }  // namespace

@@ -76,33 +76,6 @@ std::vector<Look> looksAt(osgShadow::ShadowedScene& scene, CullView view, Camera
     return globe.takeLooks();
 }
 
-TEST(ShadowPasses, DrawWhatTheyDrawWithoutAHorizon) {
-    for (const unsigned int maps : {1u, 2u}) {
-        CameraGlobe globe(test::horizonOptions()), other;
-        test::Random random(120);
-        std::size_t outside = 0, drawn = 0;
-        for (int i = 0; i < 16; ++i) {
-            const Evening evening(random);
-            const auto passes = [&](CameraGlobe& of) {
-                const osg::ref_ptr<osgShadow::ViewDependentShadowMap> technique = new osgShadow::ViewDependentShadowMap;
-                const osg::ref_ptr<osgShadow::ShadowedScene> scene = shadowedScene(of, technique, evening.toLight);
-                scene->getShadowSettings()->setNumShadowMapsPerLight(maps);
-                scene->getShadowSettings()->setComputeNearFarModeOverride(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-                return looksAt(*scene, evening.view, of);
-            };
-            const std::vector<Look> looks = passes(globe), without = passes(other);
-            ASSERT_EQ(looks.size(), 1u + maps);
-            for (std::size_t pass = 1; pass < looks.size(); ++pass) {
-                EXPECT_EQ(looks[pass].reached, without[pass].reached) << "view " << i << ", pass " << pass;
-                drawn += looks[pass].reached.size();
-                for (const std::size_t tile : looks[pass].reached) outside += 1 - looks[0].reached.count(tile);
-            }
-        }
-        EXPECT_GT(outside, 8u) << "what may cast shadows, and is not in the picture";
-        EXPECT_LT(drawn, 16 * maps * globe.size() / 2) << "not the whole globe";
-    }
-}
-
 // The technique may have near and far planes computed for its own use: the projection stays as it is.
 TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
     CameraGlobe globe(test::horizonOptions());

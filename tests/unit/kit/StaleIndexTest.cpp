@@ -5,7 +5,6 @@
 // format is tested in BinIndexTest.cpp.
 
 #include "DatabaseFixture.h"
-#include "PagedFlight.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -16,7 +15,6 @@
 #include <osgDB/ReadFile>
 #include <osgUtil/UpdateVisitor>
 
-#include <cmath>
 #include <filesystem>
 #include <support/CapturedNotes.h>
 #include <support/TemporaryFolder.h>
@@ -117,19 +115,6 @@ TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
     EXPECT_EQ(notes.count(kWarning), 0u);
 }
 
-TEST_F(StaleIndex, IsIgnoredWhereItIsOff) {
-    write(500.0, 6000.0);
-    CullOptions options;
-    options.index = IndexUse::Off;
-    const CapturedNotes notes;
-    load(options);
-    page();
-    pageSingle();
-    EXPECT_EQ(installedOn(*_root)->getBin().bin().altitude().upper, CullOptions::kTerrainOnEarth.upper);
-    EXPECT_NEAR(highOf(*_single), 6000.0, 1.0);
-    EXPECT_EQ(notes.count(""), 0u);
-}
-
 TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpdate) {
     write(7000.0, 6000.0);
     const CapturedNotes notes;
@@ -156,18 +141,6 @@ TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpd
         EXPECT_LE(installedOn(*ancestor)->getBin().bin().altitude().lower,
                   installedOn(*_single)->getBin().bin().altitude().lower);
     }
-}
-
-TEST_F(StaleIndex, TilesStayWideWhenTheyComeBack) {
-    write(500.0, 6000.0);
-    const CapturedNotes notes;
-    load();
-    page();
-    pageSingle();
-    pageOut(*_root);
-    page();
-    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
-    EXPECT_EQ(notes.count(kWarning), 1u);
 }
 
 TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatWereFittedAnewMeanwhile) {
@@ -205,25 +178,6 @@ TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatGotNewBinsMeanwhile) {
     update();
     EXPECT_GE(highOf(*_north), 5999.0);
     EXPECT_GE(highOf(*_root), 5999.0);
-}
-
-// With OSG's own pager: in the frame in which the tile appears its ancestors no longer hide it.
-TEST_F(StaleIndex, APeakThatIsNewIsNeverCulled) {
-    write(500.0, 8000.0);
-    const CapturedNotes notes;
-    load();
-    const auto near = CullView::lookAt(ecefDeg(40, 20, 8.0e5), ecefDeg(40, 20, 0), {0, 0, 1}, 60.0);
-    {
-        PagedFlight flight(*_scene);
-        // along the summit's tangent, high above the terrain that the index knows
-        const osg::Vec3d summit = ecefDeg(40, 20, 7900);
-        const osg::Vec3d east(-std::sin(osg::DegreesToRadians(20.0)), std::cos(osg::DegreesToRadians(20.0)), 0);
-        const auto along = CullView::lookAt(summit + east * 3e5, summit, summit, 0.05);
-        ASSERT_TRUE(flight.load(near));
-        flight.frame(along);
-        EXPECT_FALSE(flight.drawn().empty());
-    }
-    EXPECT_EQ(notes.count(kWarning), 1u);
 }
 
 }  // namespace

@@ -43,11 +43,6 @@ std::uint64_t fingerprintOf(osg::Node& node) {
     return surfaceFingerprint(node, osg::Matrixd());
 }
 
-TEST(SurfaceFingerprint, IsTheSameForTheSameTile) {
-    EXPECT_EQ(fingerprintOf(*makeTile()), fingerprintOf(*makeTile()));
-    EXPECT_EQ(fingerprintOf(*makeMesh()), fingerprintOf(*makeMesh()));
-}
-
 // Indexes keep fingerprints: a change of the function is a change of their format.
 TEST(SurfaceFingerprint, StaysAsItIs) {
     EXPECT_EQ(fingerprintOf(*makeTile()), 3446540989968547260u);

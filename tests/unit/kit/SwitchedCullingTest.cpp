@@ -3,7 +3,6 @@
 //
 // Databases that change how they are culled while they are shown. Oracle: the same database, read anew with the method.
 
-#include "DatabaseFixture.h"
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -11,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <osg/Stats>
 #include <osgDB/ReadFile>
-#include <osgUtil/UpdateVisitor>
 
 #include <cstdio>
 #include <cstdlib>
@@ -35,15 +33,6 @@ CullOptions by(Method method) {
 CullView look(double side) {
     const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
     return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
-}
-
-osg::PagedLOD& pagedIn(osg::Node& root) {
-    return dynamic_cast<osg::PagedLOD&>(*root.asGroup()->getChild(0));
-}
-
-void update(osg::Node& scene) {
-    const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
-    scene.accept(*visitor);
 }
 
 // The nodes of a scene with culling switched off.
@@ -175,29 +164,6 @@ TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
     EXPECT_EQ(notices.count("a view with bins"), 0u);
     EXPECT_EQ(notices.count("not a number of seconds"), 1u);
 }
-
-// The pager has read a file, and merges it after the switch.
-class LateComer : public SwitchedCulling, public ::testing::WithParamInterface<Method> {};
-
-TEST_P(LateComer, IsCulledByTheNewMethodBeforeItIsShown) {
-    const osg::ref_ptr<osg::Node> scene = read(GetParam());
-    osg::PagedLOD& paged = pagedIn(*scene);
-    const osg::ref_ptr<osg::Node> late = test::readBelow(paged);
-    ASSERT_TRUE(late);
-    setCullOptions(*scene, by(Method::Exact));
-    update(*scene);
-    test::putBelow(paged, late);
-    update(*scene);
-    osg::PagedLOD& finer = pagedIn(*late);
-    ASSERT_TRUE(test::installedOn(finer));
-    EXPECT_EQ(test::installedOn(finer)->getCullOptions().method, Method::Exact);
-    const osg::ref_ptr<osg::Node> finest = test::readBelow(finer);
-    ASSERT_TRUE(finest && test::installedOn(pagedIn(*finest)));
-    EXPECT_EQ(test::installedOn(pagedIn(*finest))->getCullOptions().method, Method::Exact);
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, LateComer, ::testing::Values(Method::Quadratic, Method::Sphere, Method::None),
-                         [](const auto& test) { return std::string(methodName(test.param)); });
 
 TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
     const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);

@@ -453,17 +453,5 @@ TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
     EXPECT_EQ(globe.counts().occluded, 0u);
 }
 
-TEST(TerrainOcclusion, IsOffWithoutAHorizon) {
-    for (const bool isOff : {false, true}) {
-        RidgeGlobe globe;
-        CullOptions options = withOcclusion();
-        if (isOff) options.horizonUse = HorizonUse::Off;
-        // a globe with a hole
-        if (!isOff) globe.root->removeChild(globe.tiles[3]);
-        installBins(*globe.root, options);
-        EXPECT_TRUE(globe.drawsFarTile()) << isOff;
-    }
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin::test

@@ -11,17 +11,12 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/MatrixTransform>
-#include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
-#include <osgDB/ReadFile>
 #include <osgTerrain/Layer>
 #include <osgTerrain/TerrainTile>
 #include <osgTerrain/ValidDataOperator>
 
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test::surfaces {
@@ -241,63 +236,6 @@ TEST(TileSurface, NeitherTraversesNorChangesATerrainTile) {
     (void)drawnTriangles(*terrain);
     EXPECT_EQ(tile->getTerrain(), terrain.get());
 }
-
-// The meshes of a file of VirtualPlanetBuilder: terrain tiles and the transforms above geometry.
-class MeshFinder : public osg::NodeVisitor {
-public:
-    MeshFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override {
-        if (dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
-            meshes.push_back(&node);
-        } else {
-            traverse(node);
-        }
-    }
-    void apply(osg::MatrixTransform& node) override { meshes.push_back(&node); }
-
-    std::vector<osg::ref_ptr<osg::Node>> meshes;
-};
-
-std::vector<osg::ref_ptr<osg::Node>> meshesOf(const std::string& database) {
-    const std::string folder = std::string(SAMPLE_DATA) + "/vpb/" + database;
-    std::vector<std::string> files{folder + "/earth.osgb"};
-    const std::string below = folder + "/earth_root_L0_X0_Y0";
-    for (const std::string& name : osgDB::getDirectoryContents(below))
-        if (osgDB::getFileExtension(name) == "osgb") files.push_back(osgDB::concatPaths(below, name));
-    std::vector<osg::ref_ptr<osg::Node>> meshes;
-    for (const std::string& file : files) {
-        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file);
-        if (!node) continue;
-        MeshFinder finder;
-        node->accept(finder);
-        meshes.insert(meshes.end(), finder.meshes.begin(), finder.meshes.end());
-    }
-    return meshes;
-}
-
-class VpbSurface : public ::testing::TestWithParam<const char*> {};
-
-// Skirts lean outward by less than a metre.
-TEST_P(VpbSurface, HoldsEveryTileAndTellsItsSkirts) {
-    const auto meshes = meshesOf(GetParam());
-    if (meshes.empty()) GTEST_SKIP() << "no sample database";
-    for (const auto& mesh : meshes) {
-        const TileSurface surface = tileSurface(*mesh, *kModel, osg::Matrixd());
-        ASSERT_TRUE(surface.bin.valid());
-        EXPECT_GT(surface.skirt, 0.0);
-        const auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(mesh.get());
-        const auto samples = samplesOf(tile ? drawnTriangles(*tile, 1.0f).surface : drawnTriangles(*mesh).surface, 2);
-        const core::Interval altitude = surface.bin.bin().altitude();
-        AnalyticBin held = surface.bin;
-        if (!tile) held.setBin(held.bin().withAltitude({altitude.lower - surface.skirt, altitude.upper}));
-        EXPECT_LE(metresOutside(held, samples, kEllipsoid), surface.bin.margin() + (tile ? 0.0 : 1.0));
-        for (const double low : surface.edgeLow) EXPECT_GE(low, altitude.lower);
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Modes, VpbSurface, ::testing::Values("terrain", "polygonal"),
-                         [](const auto& mode) { return std::string(mode.param); });
 
 }  // namespace
 }  // namespace osgAnalyticBin::test::surfaces
