@@ -82,27 +82,6 @@ TEST(AnalyticBinCullCallback, CullsAGlobeThatATransformMovesTurnsAndScalesLikeOn
     }
 }
 
-TEST(AnalyticBinCullCallback, CullsATileInALocalFrameLikeOneInEcef) {
-    CountedGlobe globe, local;
-    const osg::EllipsoidModel wgs84;
-    for (std::size_t i = 0; i < local.bins.size(); ++i) {
-        osg::Matrixd localToEcef;
-        const core::Geodetic center = local.bins[i].bin().center();
-        wgs84.computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, localToEcef);
-        const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(localToEcef);
-        const osg::ref_ptr<osg::Callback> callback = local.root->getChild(static_cast<unsigned>(i))->getCullCallback();
-        dynamic_cast<AnalyticBinCullCallback&>(*callback).setLocalToEcef(localToEcef);
-        tile->setCullCallback(callback);
-        tile->setCullingActive(false);
-        local.root->setChild(static_cast<unsigned>(i), tile);
-    }
-    test::Random random(13);
-    for (int i = 0; i < 60; ++i) {
-        const CullView view = randomGlobeView(random);
-        EXPECT_EQ(local.reached(*local.root, view), globe.reached(*globe.root, view)) << "view " << i;
-    }
-}
-
 TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     const CullView away = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
     std::set<std::string> visited;

@@ -104,11 +104,6 @@ TEST(BinIndex, ReadsBackWhatItWrote) {
     }
 }
 
-TEST(BinIndex, IsCompact) {
-    const osg::ref_ptr<BinIndex> index = randomIndex(1000);
-    EXPECT_LT(static_cast<double>(bytesOf(*index).size()), 80.0 * static_cast<double>(index->tileCount()));
-}
-
 TEST(BinIndex, FindsTilesByFileAndOrdinal) {
     const osg::ref_ptr<BinIndex> index = randomIndex(20);
     index->setTiles("a/b.osgb", {{AnalyticBin(core::GeodeticBin::fromDegrees({1, 2}, {3, 4}, {5, 6})), 5.0, 77}});

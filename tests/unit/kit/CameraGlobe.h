@@ -61,7 +61,6 @@ public:
     explicit CameraGlobe(const CullOptions& options = {}, const std::vector<AnalyticBin>& tiles = startTiles());
 
     [[nodiscard]] osg::Group& root() { return *_root; }
-    [[nodiscard]] osg::Group& tile(std::size_t i) { return *_tiles[i]; }
     [[nodiscard]] std::size_t size() const { return _tiles.size(); }
     [[nodiscard]] const std::vector<osg::Vec3d>& samplesOf(std::size_t tile) const { return _samples[tile]; }
 
