@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 // The time of one tile against the four side planes of a frustum, for every method: BM_Classify with nine tiles in ten
-// outside, BM_ClassifyHalf with half of them; likewise BM_Family and BM_FamilyHalf of four siblings at once.
-// BM_Occlusion: what the core does in a search behind terrain, for each tile. Before anything is timed, all answers are
-// compared with the oracle.
+// outside, BM_ClassifyHalf with half of them. Before anything is timed, all answers are compared with the oracle.
 
 #include "BoxBins.h"
 #include "ComparisonBins.h"
-#include "FamilyBenchmark.h"
-#include "OcclusionBenchmark.h"
 #include "TileMix.h"
-#include "TrafficBenchmark.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
@@ -154,10 +149,6 @@ public:
             return FullBin{ExactGeodeticBin(wgs84(), tile.bin()), core::HorizonBin(wgs84(), tile.bin())};
         };
         right &= addMethod("exactHorizonEdges", madeOf(_scene.tiles, full), FullTest(), seesASample);
-        addPreparation("BM_PrepareBin/exactHorizonEdges", full);
-        addPreparation("BM_PrepareBin/quadratic", quadratic);
-        addPreparation("BM_PrepareBin/exact", exact);
-        addFrustumPreparation();
         return right;
     }
 
@@ -209,32 +200,6 @@ private:
         state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(TileMix::kTilesPerFrustum));
     }
 
-    template <class Make>
-    void addPreparation(const char* name, const Make& make) {
-        benchmark::RegisterBenchmark(name, [this, make](benchmark::State& state) {
-            std::size_t i = 0;
-            for (auto _ : state) {
-                benchmark::DoNotOptimize(make(_scene.tiles[i]));
-                i = (i + 1) % _scene.tiles.size();
-            }
-            state.SetItemsProcessed(state.iterations());
-        });
-    }
-
-    void addFrustumPreparation() {
-        benchmark::RegisterBenchmark("BM_PrepareFrustum", [this](benchmark::State& state) {
-            std::size_t f = 0;
-            for (auto _ : state) {
-                core::PlaneSet set;
-                for (const core::Plane& plane : _scene.frusta[f].planes) set.push_back(plane);
-                benchmark::DoNotOptimize(set.blocks());
-                benchmark::ClobberMemory();
-                f = (f + 1) % _scene.frusta.size();
-            }
-            state.SetItemsProcessed(state.iterations());
-        });
-    }
-
     Random _random;
     Scene _scene;
     TileMix _mostlyOutside;
@@ -248,8 +213,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
     osgAnalyticBin::test::Suite suite;
-    if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks() ||
-        !osgAnalyticBin::test::addOcclusionBenchmark() || !osgAnalyticBin::test::addTrafficBenchmark()) {
+    if (!suite.add()) {
         std::fprintf(stderr,
                      "osganalyticbin_benchmark: a method culls what it must keep, or keeps all; nothing is timed\n");
         return EXIT_FAILURE;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <support/View.h>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 
@@ -94,47 +93,6 @@ TileMix::TileMix(Random& random, const Scene& scene, double outsideShare) {
         while (chosen.size() < kTilesPerFrustum) {
             const std::vector<std::uint32_t>& from =
                 reachedInto.empty() || (!outside.empty() && random.chance(outsideShare)) ? outside : reachedInto;
-            chosen.push_back(from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))]);
-        }
-    }
-}
-
-FamilyScene::FamilyScene(Random& random) : Scene(random) {
-    std::vector<BinOracle> siblings;
-    for (std::size_t i = 0; i < kTiles; i += kSiblings) {
-        const GeodeticBin& parent = tiles[i].bin();
-        const auto half = [](const core::Interval& whole, std::size_t k) {
-            return k == 0 ? core::Interval{whole.lower, whole.middle()} : core::Interval{whole.middle(), whole.upper};
-        };
-        for (std::size_t k = 0; k < kSiblings; ++k) {
-            const core::Interval& all = parent.altitude();
-            const core::Interval altitude{all.lower + random.uniform(0.0, 0.4) * all.width(),
-                                          all.upper - random.uniform(0.0, 0.4) * all.width()};
-            const GeodeticBin sibling(half(parent.latitude(), k / 2), half(parent.longitude(), k % 2), altitude);
-            siblings.emplace_back(wgs84(), sibling);
-        }
-    }
-    tiles = std::move(siblings);
-}
-
-FamilyMix::FamilyMix(Random& random, const FamilyScene& scene, double outsideShare) {
-    for (const Frustum& frustum : scene.frusta) {
-        std::vector<std::uint32_t> outside;
-        std::vector<std::uint32_t> reachedInto;
-        double tilesReachedInto = 0.0;
-        for (std::uint32_t family = 0; family < scene.tiles.size() / kSiblings; ++family) {
-            const auto* first = &scene.tiles[kSiblings * family];
-            const auto count = std::count_if(first, first + kSiblings,
-                                             [&](const BinOracle& tile) { return reachInto(frustum, tile) >= 0; });
-            (count == 0 ? outside : reachedInto).push_back(family);
-            tilesReachedInto += static_cast<double>(count);
-        }
-        // The frustum reaches into some tiles of a family only.
-        const double share = tilesReachedInto / static_cast<double>(kSiblings * reachedInto.size());
-        std::vector<std::uint32_t>& chosen = familiesOfFrustum.emplace_back();
-        while (chosen.size() < kFamiliesPerFrustum) {
-            const bool takesOutside = !outside.empty() && !random.chance((1.0 - outsideShare) / share);
-            const std::vector<std::uint32_t>& from = reachedInto.empty() || takesOutside ? outside : reachedInto;
             chosen.push_back(from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))]);
         }
     }

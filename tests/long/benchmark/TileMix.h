@@ -37,14 +37,6 @@ struct Scene {
     std::vector<Frustum> frusta;
 };
 
-/// Siblings are next to each other in the list of tiles.
-inline constexpr std::size_t kSiblings = 4;
-
-/// The same, of the four quarters of tiles: each with altitudes of its own within those of the four together.
-struct FamilyScene : Scene {
-    explicit FamilyScene(Random& random);
-};
-
 /// For every frustum, a sequence of tiles, a given share of them outside of it by the oracle. Some sixty thousand pairs
 /// in random order: more than a branch predictor learns.
 struct TileMix {
@@ -53,15 +45,6 @@ struct TileMix {
     TileMix(Random& random, const Scene& scene, double outsideShare);
 
     std::vector<std::vector<std::uint32_t>> tilesOfFrustum;
-};
-
-/// Likewise a sequence of families; `outsideShare` is that of the tiles.
-struct FamilyMix {
-    static constexpr std::size_t kFamiliesPerFrustum = TileMix::kTilesPerFrustum / kSiblings;
-
-    FamilyMix(Random& random, const FamilyScene& scene, double outsideShare);
-
-    std::vector<std::vector<std::uint32_t>> familiesOfFrustum;
 };
 
 /// The occluder of the horizon test: below all terrain, metres.
