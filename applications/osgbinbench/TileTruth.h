@@ -29,7 +29,7 @@ struct NeededTiles {
 /// The bin is the one that the kit culls the tile by, with all finer descendants in it; where there is none, the bin of
 /// the tile's own surface.
 /// The hulls are parted by the faces of both and by the edges of the frustum; what is left undecided counts as needed
-/// (one or two percent above the truth: tests/long/soundness/Tightness.cpp).
+/// (a thousandth above the truth at most: TileTruth.AgreesWithHullsAndLinesOfSight).
 /// Skirts do not hide; they count as needed where the kit's bins hold them.
 class TileTruth {
 public:

@@ -12,8 +12,7 @@
 
 namespace osgAnalyticBin::paper {
 
-/// A kind of view: cameras are drawn at random within its limits. For osgbinpaper and
-/// tests/long/soundness/Tightness.cpp.
+/// A kind of view: cameras are drawn at random within its limits.
 struct ViewKind {
     const char* name;
     double fovDeg;
