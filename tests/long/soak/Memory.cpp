@@ -3,22 +3,15 @@
 
 #include "Memory.h"
 
-#include "CountedNew.h"
-
 #include <osg/NodeVisitor>
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <malloc.h>
 #include <typeinfo>
-#include <unistd.h>
 
 namespace osgAnalyticBin::test {
 
 namespace {
-
-constexpr double kMegabyte = 1024.0 * 1024.0;
 
 bool isOurs(const osg::Object& object) {
     return std::strstr(typeid(object).name(), "osgAnalyticBin") != nullptr;
@@ -46,18 +39,6 @@ private:
 };
 
 }  // namespace
-
-Memory Memory::now() {
-    malloc_trim(0);
-    const struct mallinfo2 info = mallinfo2();
-    Memory memory;
-    memory.objects = static_cast<double>(bytesOfObjects()) / kMegabyte;
-    memory.heap = static_cast<double>(info.uordblks + info.hblkhd) / kMegabyte;
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages >> pages;
-    memory.resident = static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMegabyte;
-    return memory;
-}
 
 std::size_t KitObjects::note(osg::Node& scene) {
     Finder finder;

@@ -14,15 +14,6 @@
 
 namespace osgAnalyticBin::test {
 
-/// Megabytes of this process.
-struct Memory {
-    double objects = 0.0;   ///< by operator new: what OpenSceneGraph and the kit hold, drivers in C left out
-    double heap = 0.0;      ///< that malloc has handed out
-    double resident = 0.0;  ///< after malloc has given back what it can
-
-    [[nodiscard]] static Memory now();
-};
-
 /// The callbacks that the kit has put into a scene, told apart by address and observed until they are deleted. Not the
 /// options that files are read with: OSG's PagedLODs keep those of their last request.
 class KitObjects {
