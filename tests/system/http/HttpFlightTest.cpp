@@ -10,14 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdio>
-#include <future>
 #include <set>
 #include <string>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
-#include <thread>
 
 namespace osgAnalyticBin {
 namespace {
@@ -124,23 +121,6 @@ TEST_F(HttpFlight, OsgsFileCacheServesLaterFlights) {
     EXPECT_GT(fetched.size(), 10u);
     for (const std::string& file : fetched) EXPECT_EQ(fetched.count(file), 1u) << file;
     expectEqualPictures({first, second, fly(database, "sphere", "cached_sphere", cache)});
-}
-
-TEST_F(HttpFlight, AServerThatStopsOnTheWayAndComesBackLeavesNoTrace) {
-    Nginx nginx(globe);
-    ASSERT_TRUE(nginx.start("limit_rate 200k;"));
-    auto flight = std::async(std::launch::async, [&nginx] { return fly(nginx.url("earth.osgb"), "quadratic", "cut"); });
-    using std::chrono::milliseconds;
-    const auto isOver = [&flight](milliseconds wait) { return flight.wait_for(wait) == std::future_status::ready; };
-    // The first tiles are loaded, and more are wanted.
-    while (nginx.requests().size() < 4 && !isOver(milliseconds(5))) {
-    }
-    nginx.stop();
-    const std::size_t before = nginx.requests().size();
-    EXPECT_FALSE(isOver(milliseconds(1500)));
-    ASSERT_TRUE(nginx.start());
-    expectEqualPictures({flight.get()});
-    EXPECT_GT(nginx.requests().size(), before);
 }
 
 }  // namespace
