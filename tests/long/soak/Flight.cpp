@@ -3,6 +3,8 @@
 
 #include "Flight.h"
 
+#include "Watchdog.h"
+
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <osgDB/DatabasePager>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <iostream>
@@ -85,9 +88,8 @@ private:
     std::vector<osg::ref_ptr<Reader>> _readers;
 };
 
-Flight::Flight(const Setup& setup, const std::vector<std::string>& databases, Random& random, Watchdog& watchdog,
-               Findings& findings)
-    : _setup(setup), _databases(databases), _random(random), _watchdog(watchdog), _findings(findings) {
+Flight::Flight(const Setup& setup, const std::vector<std::string>& databases, Random& random, Findings& findings)
+    : _setup(setup), _databases(databases), _random(random), _findings(findings) {
     report("makes a viewer");
     for (std::size_t i = 0; i < kStaying; ++i) addDatabase(_databases[i]);
     _rig = std::make_unique<ViewerRig>(*_scene, setup.threading, setup.layout, setup.cameras);
@@ -108,8 +110,8 @@ Flight::~Flight() {
 }
 
 void Flight::report(const char* what) {
-    _watchdog.report("frame " + std::to_string(_findings.frames) + ", " + nameOf(_setup.threading) + " at first, " +
-                     std::to_string(_setup.cameras) + " cameras: " + what);
+    reportProgress("frame " + std::to_string(_findings.frames) + ", " + nameOf(_setup.threading) + " at first, " +
+                   std::to_string(_setup.cameras) + " cameras: " + what);
 }
 
 void Flight::warmUp() {

@@ -5,7 +5,6 @@
 
 #include "Memory.h"
 #include "ViewerRig.h"
-#include "Watchdog.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 
@@ -44,8 +43,7 @@ public:
     };
 
     /// `databases`: files; the first two stay, copies of all come and go.
-    Flight(const Setup& setup, const std::vector<std::string>& databases, Random& random, Watchdog& watchdog,
-           Findings& findings);
+    Flight(const Setup& setup, const std::vector<std::string>& databases, Random& random, Findings& findings);
     ~Flight();
 
     /// Draws the most that the scene can ever hold, in every threading model: what OpenSceneGraph's visitors keep from
@@ -77,7 +75,6 @@ private:
     const Setup _setup;
     const std::vector<std::string>& _databases;
     Random& _random;
-    Watchdog& _watchdog;
     Findings& _findings;
     const osg::ref_ptr<osg::Group> _scene = new osg::Group;
     std::unique_ptr<ViewerRig> _rig;

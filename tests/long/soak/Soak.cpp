@@ -7,6 +7,7 @@
 #include "CountedNew.h"
 #include "Flight.h"
 #include "PagedScenes.h"
+#include "Watchdog.h"
 
 #include <chrono>
 #include <cmath>
@@ -68,10 +69,10 @@ struct Samples {
 
 class Soak {
 public:
-    Soak(const Arguments& arguments)
-        : _arguments(arguments), _random(910, arguments.seed), _watchdog(std::chrono::seconds(60)) {}
+    explicit Soak(const Arguments& arguments) : _arguments(arguments), _random(910, arguments.seed) {}
 
     int run() {
+        reportProgress("writes databases");
         // the first two stay: what is known of a false database grows with every tile that is met for the first time
         _databases = {writeSyntheticDatabase(_folder.makeFolder("one")),
                       writeSyntheticDatabase(_folder.makeFolder("two")),
@@ -87,7 +88,7 @@ private:
         const std::size_t frames = _arguments.frames / 2;
         const std::size_t round = std::max<std::size_t>(frames / 100, 50);
         Flight flight({Threading::SingleThreaded, Layout::Views, 2, _arguments.withBins}, _databases, _random,
-                      _watchdog, _findings);
+                      _findings);
         flight.halt();
         _cold.add("cold", 0);
         // shorter flights have too few stations to tell growth
@@ -107,11 +108,11 @@ private:
             {
                 Flight flight({kThreadingModels[life % 4], life % 8 < 4 ? Layout::Views : Layout::Slaves,
                                kCameras[life % 3], _arguments.withBins},
-                              _databases, _random, _watchdog, _findings);
+                              _databases, _random, _findings);
                 flight.fly(round);
                 if (life % 4 == 0) flight.halt();
             }
-            _watchdog.report("after a viewer");
+            reportProgress("after a viewer");
             _ends.add("no viewer", _findings.frames);
         }
     }
@@ -141,7 +142,6 @@ private:
 
     const Arguments _arguments;
     Random _random;
-    Watchdog _watchdog;
     Findings _findings;
     const TemporaryFolder _folder;
     std::vector<std::string> _databases;

@@ -4,55 +4,33 @@
 #include "Watchdog.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <execinfo.h>
-#include <iostream>
-#include <pthread.h>
 #include <unistd.h>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
-pthread_t watched;
+constexpr unsigned int kPatience = 60;  // seconds
+char last[256] = "";
 
-void printStack(int) {
+// Linux sends the signal to the main thread.
+void onAlarm(int) {
+    (void)!write(STDERR_FILENO, last, std::strlen(last));
     void* frames[64];
     backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
+    std::abort();
 }
 
 }  // namespace
 
-Watchdog::Watchdog(std::chrono::seconds patience) : _patience(patience), _since(std::chrono::steady_clock::now()) {
-    watched = pthread_self();
-    (void)std::signal(SIGUSR1, printStack);
-    _thread = std::thread([this] { watch(); });
-}
-
-Watchdog::~Watchdog() {
-    {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        _isEnded = true;
-    }
-    _ended.notify_all();
-    _thread.join();
-}
-
-void Watchdog::report(const std::string& what) {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    _what = what;
-    _since = std::chrono::steady_clock::now();
-}
-
-void Watchdog::watch() {
-    std::unique_lock<std::mutex> lock(_mutex);
-    while (!_ended.wait_for(lock, std::chrono::seconds(1), [this] { return _isEnded; })) {
-        if (std::chrono::steady_clock::now() - _since < _patience) continue;
-        std::cerr << "hangs for " << _patience.count() << " s: " << _what << std::endl;
-        pthread_kill(watched, SIGUSR1);
-        std::this_thread::sleep_for(std::chrono::seconds(2));
-        std::abort();
-    }
+void reportProgress(const std::string& what) {
+    (void)std::signal(SIGALRM, onAlarm);
+    std::snprintf(last, sizeof last, "hangs for %u s: %s\n", kPatience, what.c_str());
+    (void)alarm(kPatience);
 }
 
 }  // namespace osgAnalyticBin::test
