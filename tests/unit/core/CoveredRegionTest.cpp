@@ -4,11 +4,10 @@
 // Oracle: latitudes and longitudes of points along segments to all corners of the region, and along lines of sight to
 // where they meet the occluder.
 
-#include "RandomRegions.h"
-
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -26,6 +25,46 @@ using core::Ellipsoid;
 using core::Geodetic;
 using core::GeodeticBin;
 using core::HorizonEye;
+
+// Radians by which a position may be beside a region and count as over it: rounding of the conversion.
+constexpr double kOverRegion = 1e-10;
+
+Ellipsoid randomGlobe(Random& random) {
+    if (random.chance(0.5)) return wgs84();
+    const double a = random.logUniform(1e5, 1e8);
+    return {a, a * std::sqrt(1.0 - random.uniform(-0.01, 0.01))};
+}
+
+// Some touch a pole, go round the globe, or end at the equator.
+GeodeticBin randomRegion(Random& random) {
+    const double height = random.logUniform(1e-4, kPi), width = random.logUniform(1e-4, 2.0 * kPi);
+    double south = random.uniform(-kHalfPi, kHalfPi);
+    if (random.chance(0.1)) south = 0.0;
+    if (random.chance(0.1)) south = -height;
+    if (random.chance(0.1)) south = kHalfPi - height;
+    const double west = random.uniform(-kPi, kPi);
+    const bool isFullCircle = random.chance(0.15);
+    return {{south, south + height}, {west, west + (isFullCircle ? 2.0 * kPi : width)}, {0.0, 0.0}};
+}
+
+bool isOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dvec3& point) {
+    const Geodetic at = ellipsoid.toGeodetic(point);
+    const core::Interval& latitude = region.latitude();
+    if (at.latitude < latitude.lower - kOverRegion || at.latitude > latitude.upper + kOverRegion) return false;
+    // longitudes mean little near the axis
+    const double slack = kOverRegion / std::max(1e-6, std::cos(at.latitude));
+    const double aside = std::remainder(at.longitude - region.longitude().middle(), 2.0 * kPi);
+    return std::abs(aside) <= 0.5 * region.longitude().width() + slack;
+}
+
+bool isSegmentOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dvec3& from,
+                   const glm::dvec3& to) {
+    constexpr int kSteps = 48;
+    for (int step = 0; step <= kSteps; ++step) {
+        if (!isOver(region, ellipsoid, glm::mix(from, to, static_cast<double>(step) / kSteps))) return false;
+    }
+    return true;
+}
 
 TEST(CoveredRegion, HoldsAllSegments) {
     Random random(1702);

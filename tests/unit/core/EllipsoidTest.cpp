@@ -47,25 +47,6 @@ TEST(Ellipsoid, ConvertsThePublishedExample) {
     EXPECT_NEAR(ecef.z, published.z, kPublishedTo);
 }
 
-TEST(Ellipsoid, ConvertsLikeLongDouble) {
-    Random random(10);
-    for (int trial = 0; trial < 100000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const Geodetic position{random.uniform(-kHalfPi, kHalfPi), random.uniform(-2 * kPi, 2 * kPi),
-                                random.uniform(-11000.0, 1e7)};
-        ASSERT_LE(distanceBetween(ellipsoid.toEcef(position), geodeticToEcef(ellipsoid, position)),
-                  kMappingRounding * (7e6 + std::abs(position.altitude)));
-    }
-}
-
-TEST(Ellipsoid, AxesAreWhereTheyShouldBe) {
-    const Ellipsoid earth = wgs84();
-    EXPECT_EQ(earth.toEcef({0.0, 0.0, 0.0}), glm::dvec3(earth.equatorialRadius(), 0.0, 0.0));
-    EXPECT_NEAR(earth.toEcef({0.0, kHalfPi, 100.0}).y, earth.equatorialRadius() + 100.0, 1e-8);
-    EXPECT_NEAR(earth.toEcef({kHalfPi, 0.3, 100.0}).z, earth.polarRadius() + 100.0, 1e-8);
-    EXPECT_NEAR(earth.toEcef({-kHalfPi, 0.3, 0.0}).z, -earth.polarRadius(), 1e-8);
-}
-
 TEST(Ellipsoid, PolesHaveLongitudeZero) {
     const Ellipsoid earth = wgs84();
     for (const double side : {1.0, -1.0}) {
@@ -110,6 +91,7 @@ TEST(Ellipsoid, ReturnsToTheSamePoint) {
 
 // From disks to needles, at any depth: where normals cross, the nearest of several positions is taken.
 Ellipsoid flatOrLong(Random& random) {
+    if (random.chance(0.3)) return wgs84();
     const double ratio = random.chance(0.2) ? random.pick(kEndsOfRatio) : random.logUniform(0.01, 100.0);
     return Ellipsoid(6378137.0, 6378137.0 * ratio);
 }
@@ -126,7 +108,7 @@ double smallestCurvatureRadius(const Ellipsoid& ellipsoid) {
     return std::min(a * a / b, b * b / a);
 }
 
-TEST(Ellipsoid, ConvertsLikeLongDoubleOnDisksAndNeedles) {
+TEST(Ellipsoid, ConvertsLikeLongDouble) {
     Random random(14);
     for (int trial = 0; trial < 100000; ++trial) {
         const Ellipsoid ellipsoid = flatOrLong(random);

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Oracles: the same form in long double, which shares no code (tested itself in GeodeticOracleTest), samples of the
-// bin, the second-order model, relations. Ten million more pairs of bin and plane: Soundness.cpp. Many planes at once:
-// PlaneSetTest.
+// bin. Ten million more pairs of bin and plane: Soundness.cpp. Many planes at once: PlaneSetTest.
 
 #include "BinChecks.h"
 
@@ -50,11 +49,6 @@ double tolerance(const PlaneCase& c) {
     const double magnitude = std::max(c.oracle.ellipsoid().equatorialRadius(), c.oracle.ellipsoid().polarRadius()) +
                              std::max(std::abs(altitude.lower), std::abs(altitude.upper));
     return kTightness * (magnitude + std::abs(c.plane.offset));
-}
-
-TEST(ExactGeodeticBin, NeverContradictsASample) {
-    Random random(100);
-    expectNoContradictionOfASample(random, exactWithMargin);
 }
 
 TEST(ExactGeodeticBin, IsTightToRounding) {
@@ -196,53 +190,6 @@ TEST(ExactGeodeticBin, PlaneWithoutNumbersIsUndecided) {
     for (const double infinite : {kInfinity, -kInfinity}) {
         EXPECT_EQ(bin.classify({{infinite, 0.0, 0.0}, 0.0}), Side::Straddling);
     }
-}
-
-TEST(ExactGeodeticBin, FlippingThePlaneFlipsTheRange) {
-    Random random(107);
-    expectFlippedPlanesToFlipTheRange(random, exactWithMargin);
-}
-
-TEST(ExactGeodeticBin, TurnsWithTheEarth) {
-    Random random(108);
-    expectRangesToTurnWithTheEarth(
-        random, exactWithMargin, [](const PlaneCase& c) { return 2.0 * tolerance(c); }, true);
-}
-
-TEST(ExactGeodeticBin, MirrorsWithTheHemispheres) {
-    Random random(109);
-    expectRangesToMirrorWithTheHemispheres(random, exactWithMargin, tolerance);
-}
-
-TEST(ExactGeodeticBin, QuartersLieWithinTheirParentAndFillIt) {
-    Random random(110);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const PlaneCase c(random);
-        const Interval outer = exact(c).distanceRange(c.plane);
-        Interval hull{kInfinity, -kInfinity};
-        for (const GeodeticBin& child : c.oracle.bin().quarters()) {
-            const Interval inner = ExactGeodeticBin(c.oracle.ellipsoid(), child).distanceRange(c.plane);
-            hull = {std::min(hull.lower, inner.lower), std::max(hull.upper, inner.upper)};
-        }
-        expectSameRange(outer, hull, 2.0 * tolerance(c));
-    }
-}
-
-TEST(ExactGeodeticBin, LiesWithinTheQuadraticRange) {
-    Random random(111);
-    for (int trial = 0; trial < 100000; ++trial) {
-        const PlaneCase c(random);
-        const core::QuadraticBin model(core::GeodeticMapping(c.oracle.ellipsoid()), core::parameterBox(c.oracle.bin()));
-        const Interval outer = model.distanceRange(c.plane);
-        const Interval inner = exact(c).distanceRange(c.plane);
-        ASSERT_GE(inner.lower, outer.lower - tolerance(c)) << nameOf(c.kind);
-        ASSERT_LE(inner.upper, outer.upper + tolerance(c)) << nameOf(c.kind);
-    }
-}
-
-TEST(ExactGeodeticBin, CameraInsideTheBinKeepsIt) {
-    Random random(112);
-    expectACameraInsideToKeepTheBin(random, exactWithMargin);
 }
 
 // As deep as it may be taken, on ellipsoids of any flattening; the model holds below as well.

@@ -40,29 +40,6 @@ GeodeticGrid randomGrid(Random& random) {
     return grid;
 }
 
-TEST(GeodeticGridBounds, HoldsEveryPointOfEveryTriangle) {
-    Random random(180);
-    for (int trial = 0; trial < 1000; ++trial) {
-        const Ellipsoid ellipsoid =
-            random.chance(0.5) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.92, 1.08)));
-        const GeodeticGrid grid = randomGrid(random);
-        const double reach = random.chance(0.2) ? 0.0 : random.logUniform(1.0, 110000.0);
-        const GeodeticGridBounds bounds(ellipsoid, grid, reach);
-        // a tile's heights, anywhere within the reach
-        const double low = random.uniform(-reach, reach);
-        const Interval altitude{low, random.uniform(low, reach)};
-        const GeodeticBin bin(bounds.latitude(), grid.longitude, {altitude.lower - bounds.sag(), altitude.upper});
-        for (int i = 0; i < 20; ++i) {
-            for (const Triangle& triangle : GridCell(random, ellipsoid, grid, altitude).triangles()) {
-                for (int k = 0; k < 5; ++k) {
-                    const RealVector point = randomPointOf(random, triangle);
-                    ASSERT_LE(distanceOutside(ellipsoid, bin, point), kPromised) << trial;
-                }
-            }
-        }
-    }
-}
-
 TEST(GeodeticGridBounds, HoldsTheChordsOfEveryEdge) {
     Random random(181);
     for (int trial = 0; trial < 1000; ++trial) {
@@ -109,27 +86,6 @@ TEST(GeodeticGridBounds, IsKnownOnPlanetsLikeTheEarth) {
         }
         EXPECT_FALSE(GeodeticGridBounds(ellipsoid, grid, 0.1001 * smaller).isKnown()) << planet;
     }
-}
-
-TEST(GeodeticGridBounds, IsTight) {
-    // one tile about 45 degrees north: what the corners and the middle of a cell do, and no more than a few percent
-    const Ellipsoid earth = wgs84();
-    GeodeticGrid grid;
-    grid.latitude = {0.70, 0.80};
-    grid.longitude = {0.0, 0.1};
-    grid.columns = grid.rows = 11;
-    const GeodeticGridBounds bounds(earth, grid, 0.0);
-    const Real half = 0.5L;
-    const glm::dvec3 southWest = earth.toEcef({0.70, 0.0, 0.0});
-    const glm::dvec3 northEast = earth.toEcef({0.71, 0.01, 0.0});
-    const Real diagonal = -ecefToGeodetic(earth, half * (real(southWest) + real(northEast))).altitude;
-    EXPECT_LE(bounds.sag(), 1.03 * static_cast<double>(diagonal));
-    const glm::dvec3 northWest = earth.toEcef({0.80, 0.0, 0.0});
-    const glm::dvec3 next = earth.toEcef({0.80, 0.01, 0.0});
-    const RealGeodetic middle = ecefToGeodetic(earth, half * (real(northWest) + real(next)));
-    EXPECT_LE(bounds.latitude().upper - 0.80, 1.03 * (static_cast<double>(middle.latitude) - 0.80));
-    EXPECT_LE(bounds.edgeSag()[2], 1.03 * static_cast<double>(-middle.altitude));
-    EXPECT_EQ(bounds.latitude().lower, 0.70);
 }
 
 }  // namespace

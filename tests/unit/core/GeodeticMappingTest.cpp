@@ -187,22 +187,6 @@ double modelError(Random& random, const Ellipsoid& ellipsoid, const ParameterBox
     return worst;
 }
 
-TEST(GeodeticMapping, ModelErrorFallsEightfoldPerHalving) {
-    Random random(44);
-    const Ellipsoid earth = wgs84();
-    for (int trial = 0; trial < 200; ++trial) {
-        ParameterBox box = core::parameterBox(randomTile(random, 2, {0.0, 100000.0}));
-        double error = modelError(random, earth, box, 200);
-        for (int halving = 0; halving < 4; ++halving) {
-            box.halfSize *= 0.5;
-            const double next = modelError(random, earth, box, 200);
-            ASSERT_GT(error / next, 7.0);
-            ASSERT_LT(error / next, 9.0);
-            error = next;
-        }
-    }
-}
-
 TEST(GeodeticMapping, LargestModelErrorPerLevel) {
     Random random(45);
     std::printf("largest error of the second-order model, altitudes %.0f .. %.0f m\n", kTerrainAltitudes.lower,

@@ -5,8 +5,6 @@
 // at points made so that the line of sight just misses; relations. Ten million more trials: HullSoundness.cpp. Views as
 // in flight: Tightness.cpp.
 
-#include "HorizonChecks.h"
-
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/geometric.hpp>
@@ -38,10 +36,6 @@ glm::dvec3 onWgs84(double latitudeDeg, double longitudeDeg, double altitude) {
     return wgs84().toEcef({latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude});
 }
 
-bool hidesBin(const HorizonEye& eye, const HorizonBin& bin) {
-    return isHidden(bin, eye);
-}
-
 bool hides(const glm::dvec3& eye, const GeodeticBin& bin, double depth = kDepth, double margin = 0.0) {
     const auto prepared = HorizonEye::fromEye(wgs84(), depth, eye);
     return prepared && isHidden(HorizonBin(wgs84(), bin, margin), *prepared);
@@ -51,14 +45,18 @@ GeodeticBin square(double southDeg, double westDeg, double sizeDeg, Interval alt
     return GeodeticBin::fromDegrees({southDeg, southDeg + sizeDeg}, {westDeg, westDeg + sizeDeg}, altitude);
 }
 
-TEST(Horizon, HidesNoVisiblePoint) {
-    Random random(300);
-    expectNoVisiblePointToBeHidden(random, hidesBin);
-}
-
 TEST(Horizon, SeesEveryPointWhoseLineOfSightJustMisses) {
     Random random(301);
-    expectLinesOfSightThatJustMissToBeSeen(random, hidesBin);
+    int seen = 0;
+    for (int trial = 0; trial < 300000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        if (!segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) continue;
+        ++seen;
+        const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
+        if (!prepared) continue;
+        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
+    }
+    EXPECT_GT(seen, 100000) << "nothing is tested";
 }
 
 // The share of the way from the eye to a point at which a line of sight enters the occluder.
@@ -115,7 +113,21 @@ TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
 
 TEST(Horizon, SeesEveryPointThatAParallelRayReaches) {
     Random random(302);
-    expectParallelRaysThatJustMissToBeSeen(random, hidesBin);
+    int seen = 0;
+    int active = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
+        if (!halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) continue;
+        ++seen;
+        const glm::dvec3 nearPoint = line.eye - 4e7 * direction;
+        const auto prepared = HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, nearPoint);
+        if (!prepared) continue;
+        ++active;
+        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
+    }
+    EXPECT_GT(seen, 50000);
+    EXPECT_GT(active, 50000);
 }
 
 // The share of truly hidden tiles that are found; truth by dense sampling, which calls too many hidden, if anything.
@@ -196,27 +208,6 @@ TEST(Horizon, OccluderLiesBelowTheParallelSurface) {
     }
 }
 
-TEST(Horizon, HidesTheOtherSideOfTheEarth) {
-    const glm::dvec3 eye = onWgs84(10.0, 20.0, 1000.0);
-    EXPECT_TRUE(hides(eye, square(-10.0, -165.0, 5.0)));
-    EXPECT_TRUE(hides(eye, square(40.0, 20.0, 5.0)));
-    EXPECT_FALSE(hides(eye, square(10.0, 20.0, 5.0)));
-    EXPECT_FALSE(hides(eye, square(5.0, 22.0, 5.0)));
-    EXPECT_TRUE(hides(eye, square(10.0, 100.0, 5.0)));
-    EXPECT_FALSE(hides(eye, square(10.0, 100.0, 5.0, {0.0, 1e8}))) << "above the shadow";
-}
-
-TEST(Horizon, TakesBinsAtPolesAndDateLineAndWideOnes) {
-    const glm::dvec3 overNorth = onWgs84(89.9, 0.0, 1000.0);
-    EXPECT_TRUE(hides(overNorth, GeodeticBin::fromDegrees({-90.0, 45.0}, {-180.0, 180.0}, {0.0, 1000.0})));
-    EXPECT_FALSE(hides(overNorth, GeodeticBin::fromDegrees({89.0, 90.0}, {100.0, 110.0}, {0.0, 1000.0})));
-    const glm::dvec3 atDateLine = onWgs84(0.0, 180.0, 1000.0);
-    EXPECT_FALSE(hides(atDateLine, square(-1.0, 179.0, 2.0)));
-    EXPECT_TRUE(hides(atDateLine, GeodeticBin::fromDegrees({-10.0, 10.0}, {-150.0, 150.0}, {0.0, 1000.0})));
-    EXPECT_FALSE(hides(atDateLine, GeodeticBin::fromDegrees({-10.0, 10.0}, {-190.0, 150.0}, {0.0, 1000.0})));
-    EXPECT_FALSE(hides(atDateLine, GeodeticBin::wholeGlobe({0.0, 1000.0})));
-}
-
 TEST(Horizon, MissingInformationIsVisible) {
     const auto fromEye = [](double depth, const glm::dvec3& eye) {
         return HorizonEye::fromEye(wgs84(), depth, eye).has_value();
@@ -263,20 +254,6 @@ TEST(Horizon, MarginHidesLess) {
         changed += bare != grown ? 1 : 0;
     }
     EXPECT_GT(changed, 100);
-}
-
-TEST(Horizon, DoesNotChangeUnderMirroringAndTurning) {
-    Random random(307);
-    int differences = 0;
-    for (int trial = 0; trial < 100000; ++trial) {
-        const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
-        const Geodetic eye{random.uniform(-1.5, 1.5), random.uniform(-3.0, 3.0), random.logUniform(1.0, 1e8)};
-        const GeodeticBin mirrored({-bin.latitude().upper, -bin.latitude().lower},
-                                   {bin.longitude().lower + 0.5, bin.longitude().upper + 0.5}, bin.altitude());
-        const Geodetic mirroredEye{-eye.latitude, eye.longitude + 0.5, eye.altitude};
-        differences += hides(wgs84().toEcef(eye), bin) != hides(wgs84().toEcef(mirroredEye), mirrored) ? 1 : 0;
-    }
-    EXPECT_EQ(differences, 0);
 }
 
 }  // namespace

@@ -62,13 +62,6 @@ core::EcefMesh without(const core::EcefMesh& mesh, std::size_t first) {
     return less;
 }
 
-// Seen from above. Those between vertices at a pole have none.
-bool hasArea(const core::EcefMesh& mesh, std::size_t first) {
-    const Triangle t = triangleAt(mesh, first);
-    const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
-    return glm::dot(normal, glm::normalize(t.a)) > 0.1 * glm::length(normal);
-}
-
 // Front faces less back faces on the normal through a place, far from edges by chance.
 int facesAt(const core::EcefMesh& mesh, const core::Geodetic& at) {
     const glm::dvec3 foot = kEarth.toEcef({at.latitude, at.longitude, 0.0}), up = kEarth.up(at.latitude, at.longitude);
@@ -100,33 +93,6 @@ TEST(MeshCover, IsThatOfAGridWithAndWithoutSkirts) {
                 expectSame(cover.place, extents);
             }
         }
-    }
-}
-
-TEST(MeshCover, IsNotFilledWithoutAnyOfItsTriangles) {
-    Random random(2);
-    for (const core::GeodeticBin& extents : kExtents) {
-        const core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
-        for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
-            if (!hasArea(mesh, first)) continue;
-            EXPECT_FALSE(core::MeshCover::of(kEarth, without(mesh, first)).isFilled) << first;
-        }
-    }
-}
-
-TEST(MeshCover, IsNotFilledByBackFaces) {
-    Random random(3);
-    for (const core::GeodeticBin& extents : kExtents) {
-        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
-        for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3)
-            std::swap(mesh.triangles[first], mesh.triangles[first + 1]);
-        EXPECT_FALSE(core::MeshCover::of(kEarth, mesh).isFilled);
-        // one that is reversed is a hole
-        core::EcefMesh holed = gridMesh(random, kEarth, extents, 9);
-        const std::size_t first = 3 * 40;
-        ASSERT_TRUE(hasArea(holed, first));
-        std::swap(holed.triangles[first], holed.triangles[first + 1]);
-        EXPECT_FALSE(core::MeshCover::of(kEarth, holed).isFilled);
     }
 }
 

@@ -53,22 +53,6 @@ TEST(Classify, OutsideOfOnePlaneIsOutside) {
     EXPECT_EQ(undecided, PlaneMask{0b110}) << "planes passed before keep their verdict";
 }
 
-TEST(Classify, InsideOfAllUndecidedPlanesIsInside) {
-    const ScriptedBin bin;
-    const std::vector<Plane> planes{answering(Side::Inside), answering(Side::Inside)};
-    PlaneMask undecided = 0b11;
-    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Inside);
-    EXPECT_EQ(undecided, PlaneMask{0});
-}
-
-TEST(Classify, StraddlingPlanesStayUndecided) {
-    const ScriptedBin bin;
-    const std::vector<Plane> planes{answering(Side::Straddling), answering(Side::Inside), answering(Side::Straddling)};
-    PlaneMask undecided = 0b111;
-    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Straddling);
-    EXPECT_EQ(undecided, PlaneMask{0b101});
-}
-
 TEST(Classify, DecidedPlanesAreNotAsked) {
     const ScriptedBin bin;
     const Plane planes[] = {answering(Side::Outside), answering(Side::Straddling)};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Oracles: the closed form of the bin's range (tested itself in GeodeticOracleTest), samples of the bin, relations.
-// Ten million more pairs of bin and plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
+// Oracle: the closed form of the bin's range (tested itself in GeodeticOracleTest). Ten million more pairs of bin and
+// plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
 
 #include "BinChecks.h"
 
@@ -36,16 +36,6 @@ constexpr double kSameGeometry = 1e-7;
 
 QuadraticBin quadratic(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) {
     return QuadraticBin(GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
-}
-
-// The same, where planes are far away besides.
-double sameRange(const PlaneCase& c) {
-    return kSameGeometry + 1e-14 * std::abs(c.plane.offset);
-}
-
-TEST(QuadraticBin, NeverContradictsASample) {
-    Random random(60);
-    expectNoContradictionOfASample(random, quadratic);
 }
 
 TEST(QuadraticBin, DistanceRangeHoldsTheTrueRange) {
@@ -92,23 +82,6 @@ TEST(QuadraticBin, DecidesWhatItsDistanceRangeDecides) {
     }
 }
 
-TEST(QuadraticBin, RemainderBoundsTheModelError) {
-    Random random(64);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const BinKind kind = random.pick(kBinKinds);
-        const GeodeticBin bin = randomBin(random, kind);
-        const core::ParameterBox box = core::parameterBox(bin);
-        const QuadraticBin model(GeodeticMapping(ellipsoid), box);
-        const glm::dvec3 unit(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
-        const std::array<Real, 3> x{box.center.x + static_cast<Real>(unit.x) * box.halfSize.x,
-                                    box.center.y + static_cast<Real>(unit.y) * box.halfSize.y,
-                                    box.center.z + static_cast<Real>(unit.z) * box.halfSize.z};
-        const Real error = length(real(model.modelPoint(unit)) - geodeticToEcef(ellipsoid, x[0], x[1], x[2]));
-        ASSERT_LE(error, model.remainder() * (1.0 + 1e-12) + kSameGeometry) << nameOf(kind);
-    }
-}
-
 // The excess of one side over the true range, per tile size, over random directions.
 double largestExcess(Random& random, int level, Interval altitude, int trials) {
     double worst = 0.0;
@@ -144,20 +117,6 @@ TEST(QuadraticBin, IsTight) {
     }
 }
 
-TEST(QuadraticBin, DecidesPlanesThatClearlyMiss) {
-    Random random(66);
-    for (int trial = 0; trial < 20000; ++trial) {
-        const BinOracle oracle(wgs84(), randomTile(random, random.integer(0, kDeepestLevel), {-500.0, 9000.0}));
-        const glm::dvec3 normal = random.direction();
-        const RealRange along = oracle.range(normal);
-        const double clearly = 0.03 * sizeOf(wgs84(), oracle.bin()) + 1e-6;
-        const QuadraticBin bin = quadratic(wgs84(), oracle.bin());
-        ASSERT_EQ(bin.classify({normal, -static_cast<double>(along.upper) - clearly}), Side::Outside);
-        ASSERT_EQ(bin.classify({normal, -static_cast<double>(along.lower) + clearly}), Side::Inside);
-        ASSERT_EQ(bin.classify({normal, -static_cast<double>((along.upper + along.lower) / 2)}), Side::Straddling);
-    }
-}
-
 TEST(QuadraticBin, MarginWidensTheRangeByItself) {
     Random random(67);
     expectMarginToWidenTheRangeByItself(
@@ -187,55 +146,6 @@ TEST(QuadraticBin, NormalsMayBeOffByTheTolerance) {
         const Real reach = margin * length(real(c.plane.normal));
         ASSERT_LE(range.lower, truth.lower - reach + c.oracle.rounding(c.plane)) << nameOf(c.kind);
         ASSERT_GE(range.upper, truth.upper + reach - c.oracle.rounding(c.plane)) << nameOf(c.kind);
-    }
-}
-
-TEST(QuadraticBin, FlippingThePlaneFlipsTheRange) {
-    Random random(69);
-    expectFlippedPlanesToFlipTheRange(random, quadratic);
-}
-
-TEST(QuadraticBin, TurnsWithTheEarth) {
-    Random random(70);
-    expectRangesToTurnWithTheEarth(random, quadratic, sameRange, false);
-}
-
-TEST(QuadraticBin, MirrorsWithTheHemispheres) {
-    Random random(71);
-    expectRangesToMirrorWithTheHemispheres(random, quadratic, sameRange);
-}
-
-TEST(QuadraticBin, SmallerBoxesHaveSmallerRanges) {
-    // Not exactly: the model of a quarter is another model. But never beyond both remainders.
-    Random random(72);
-    for (int trial = 0; trial < 20000; ++trial) {
-        const GeodeticBin parent = randomTile(random, random.integer(0, 10), {-500.0, 9000.0});
-        const Plane plane{random.direction(), 0.0};
-        const Interval outer = quadratic(wgs84(), parent).distanceRange(plane);
-        for (const GeodeticBin& child : parent.quarters()) {
-            const QuadraticBin model = quadratic(wgs84(), child);
-            const Interval inner = model.distanceRange(plane);
-            const double allowance = 2.0 * model.remainder() + kSameGeometry;
-            ASSERT_GE(inner.lower, outer.lower - allowance);
-            ASSERT_LE(inner.upper, outer.upper + allowance);
-        }
-    }
-}
-
-TEST(QuadraticBin, CameraInsideTheBinKeepsIt) {
-    Random random(73);
-    expectACameraInsideToKeepTheBin(random, quadratic);
-}
-
-TEST(QuadraticBin, APointHasNoRange) {
-    Random random(74);
-    for (int trial = 0; trial < 10000; ++trial) {
-        const GeodeticBin bin = randomBin(random, BinKind::Point);
-        const Plane plane{random.direction(), 0.0};
-        const Interval range = quadratic(wgs84(), bin).distanceRange(plane);
-        ASSERT_LE(range.width(), 1e-5);
-        const Real at = exactDistance(plane, geodeticToEcef(wgs84(), bin.center()));
-        ASSERT_NEAR(range.middle(), static_cast<double>(at), kSameGeometry);
     }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Oracles: dense sampling with climbing; all 27 vertices, edges, faces and interior solved in long double by
-// elimination with pivoting.
+// Oracle: all 27 vertices, edges, faces and interior solved in long double by elimination with pivoting.
 
 #include <osgAnalyticBin/core/bin/QuadraticRange.h>
 
@@ -28,10 +27,6 @@ using Vector = std::array<Real, 3>;
 using Matrix = std::array<Vector, 3>;
 
 constexpr double kRangePromised = 64.0 * std::numeric_limits<double>::epsilon();  // by exactRange
-// What the samples leave at most, relative to the magnitude: a grid point is within 0.1 of the extremum in every
-// coordinate in which it is stationary, and on the boundary in the others. Climbing mostly does far better.
-constexpr double kGridError = 0.01;
-constexpr int kMostSteps = 400;
 
 Matrix matrixOf(const Quadratic& q) {
     const auto& h = q.hessian;
@@ -109,43 +104,6 @@ std::pair<Real, Real> solvedRange(const Quadratic& q) {
         upper = std::max(upper, value);
     }
     return {lower, upper};
-}
-
-Real climbed(const Quadratic& q, Real sign, Vector at, Real step) {
-    Real best = sign * valueAt(q, at);
-    for (int steps = 0, halvings = 0; halvings < 24 && steps < kMostSteps; ++steps) {
-        const Vector from = at;
-        for (int code = 0; code < 27; ++code) {
-            Vector x = from;
-            x[0] += static_cast<Real>(code % 3 - 1) * step;
-            x[1] += static_cast<Real>(code / 3 % 3 - 1) * step;
-            x[2] += static_cast<Real>(code / 9 - 1) * step;
-            for (Real& c : x) c = std::clamp<Real>(c, -1, 1);
-            const Real value = sign * valueAt(q, x);
-            if (value > best) {
-                best = value;
-                at = x;
-            }
-        }
-        if (at != from) continue;
-        ++halvings;
-        step /= 2;
-    }
-    return sign * best;
-}
-
-std::pair<Real, Real> sampledRange(const Quadratic& q) {
-    constexpr int kSteps = 10;
-    Vector lowest{};
-    Vector highest{};
-    for (int code = 0; code < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++code) {
-        const auto coordinate = [](int i) { return -1 + 2 * static_cast<Real>(i) / kSteps; };
-        const Vector x{coordinate(code % (kSteps + 1)), coordinate(code / (kSteps + 1) % (kSteps + 1)),
-                       coordinate(code / (kSteps + 1) / (kSteps + 1))};
-        if (valueAt(q, x) < valueAt(q, lowest)) lowest = x;
-        if (valueAt(q, x) > valueAt(q, highest)) highest = x;
-    }
-    return {climbed(q, -1, lowest, Real{2} / kSteps), climbed(q, 1, highest, Real{2} / kSteps)};
 }
 
 enum class Shape {
@@ -236,20 +194,6 @@ Quadratic randomQuadratic(Random& random, Shape shape) {
     return q;
 }
 
-TEST(QuadraticRange, MatchesDenseSampling) {
-    Random random(50);
-    for (int trial = 0; trial < 1000; ++trial) {
-        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
-        const Interval range = exactRange(q);
-        const auto [lower, upper] = sampledRange(q);
-        const double magnitude = magnitudeOf(q);
-        ASSERT_LE(range.lower, lower + kRangePromised * magnitude);
-        ASSERT_GE(range.upper, upper - kRangePromised * magnitude);
-        ASSERT_GE(range.lower, lower - kGridError * magnitude);
-        ASSERT_LE(range.upper, upper + kGridError * magnitude);
-    }
-}
-
 TEST(QuadraticRange, MatchesAllStationaryPointsInLongDouble) {
     Random random(51);
     Real worst = 0;
@@ -304,38 +248,6 @@ TEST(QuadraticRange, FindsExtremaOfEveryKind) {
     EXPECT_EQ(range(0.0, {}, {2.0, -2.0, 0.0, 0.0, 0.0, 0.0}), (Interval{-1.0, 1.0})) << "a saddle, on its edges";
     EXPECT_EQ(range(0.0, {}, {0.0, 0.0, 2.0, 0.0, 0.0, 0.0}), (Interval{0.0, 1.0})) << "a trough along u and v";
     EXPECT_EQ(range(0.0, {0.0, 0.0, 1.0}, {0.0, 0.0, -2.0, 0.0, 0.0, 0.0}), (Interval{-2.0, 0.25}));
-}
-
-TEST(QuadraticRange, NinePointsAreNotEnough) {
-    // -u2 + v: highest in the middle of the edge v = 1; the corners say 0, and there is no stationary point.
-    const Quadratic q{0.0, {0.0, 1.0, 0.0}, {-2.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-    EXPECT_EQ(exactRange(q).upper, 1.0);
-    EXPECT_EQ(std::max({q(1, 1, 1), q(-1, 1, 1), q(1, -1, 1), q(-1, -1, 1)}), 0.0);
-}
-
-TEST(QuadraticRange, EvaluatesThePolynomial) {
-    Random random(53);
-    for (int trial = 0; trial < 10000; ++trial) {
-        const Quadratic q = randomQuadratic(random, Shape::General);
-        const glm::dvec3 x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        ASSERT_NEAR(q(x.x, x.y, x.z), static_cast<double>(valueAt(q, {x.x, x.y, x.z})),
-                    kRangePromised * magnitudeOf(q));
-    }
-}
-
-TEST(QuadraticRange, TurnsOverWithThePolynomial) {
-    Random random(54);
-    for (int trial = 0; trial < 100000; ++trial) {
-        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
-        Quadratic negative = q;
-        negative.value = -q.value;
-        for (double& g : negative.gradient) g = -g;
-        for (double& h : negative.hessian) h = -h;
-        const Interval range = exactRange(q);
-        const Interval turned = exactRange(negative);
-        ASSERT_EQ(turned.lower, -range.upper);
-        ASSERT_EQ(turned.upper, -range.lower);
-    }
 }
 
 }  // namespace
