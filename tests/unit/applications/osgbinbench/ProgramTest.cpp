@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <support/PhotogrammetrySample.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <vector>
@@ -77,7 +76,7 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     ASSERT_FALSE(bench.database.empty());
     const Json first = withoutTimes(bench.run("first", "--live 0"));
     ASSERT_EQ(first.size(), 4U);
-    // bins are tested alike in every threading model: ViewerFlight.EveryThreadingModelDrawsTheSamePictures
+    // pictures with bins in every threading model: tests/long/soak
     EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0 --threading CullThreadPerCameraDrawThreadPerContext")));
     // pose by pose too
     EXPECT_EQ(countsOf(bench.folder / "first.csv"), countsOf(bench.folder / "second.csv"));
@@ -254,26 +253,6 @@ TEST(Program, SaysThatOnlyTerrainCanBeScaled) {
         test::runBench(test::quoted(bench.database) + " --path " + test::quoted(bench.path) + " --vertical-scale 2");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_EQ(outcome.linesWith("--vertical-scale: "), 1) << outcome.text;
-}
-
-// Two nodes of the sample have spheres that do not hold their vertices.
-TEST(Program, APhotogrammetrySetLosesNothing) {
-    TemporaryFolder folder;
-    const std::string set = test::writePhotogrammetrySample(folder.path());
-    ASSERT_FALSE(set.empty());
-    Bench bench;
-    bench.database = set;
-    bench.path = folder.write("path.csv",
-                              "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
-                              "low,47.4990,11.2000,90,47.5005,11.2003,40,40,1,5000\n"
-                              "tower,47.5012,11.2010,120,47.5008,11.2010,100,20,1,5000\n"
-                              "rim,47.5006,11.2025,60,47.5006,11.1990,90,15,1,5000\n"
-                              "above,47.5000,11.2000,600,47.5001,11.2000,0,60,1,5000\n");
-    const Json methods = bench.run("set", "--methods sphere,quadratic --live 0");
-    ASSERT_EQ(methods.size(), 3U);
-    EXPECT_EQ(methods["quadratic"]["false_culls"], 0);
-    EXPECT_EQ(methods["quadratic"]["differing_pixels"], 0);
-    EXPECT_LT(methods["quadratic"]["drawn_tiles"], methods["none"]["drawn_tiles"]);
 }
 
 }  // namespace

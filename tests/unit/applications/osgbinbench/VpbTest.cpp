@@ -4,7 +4,6 @@
 // Databases of VirtualPlanetBuilder, and the camera path that was made for them. Skipped where the samples are absent.
 
 #include "BenchProgram.h"
-#include "CameraPath.h"
 
 #include <gtest/gtest.h>
 
@@ -141,19 +140,6 @@ TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
     EXPECT_GE(methods["cluster"]["differing_pixels"], 500);
     EXPECT_EQ(methods["exact+horizon+edges"]["false_culls"], 0);
     EXPECT_EQ(methods["exact+horizon+edges"]["differing_pixels"], 0);
-}
-
-TEST(VpbPath, HasPosesOfEveryKind) {
-    std::string error;
-    const auto path = flight::readCameraPathFile(VPB_PATH_FILE, error);
-    ASSERT_TRUE(path.has_value()) << error;
-    EXPECT_GE(path->size(), 48U);
-    for (const char* const kind : {"fov60_nadir", "fov60_oblique", "fov60_horizon", "fov60_pole", "fov60_dateline",
-                                   "fov10_nadir", "fov10_oblique", "fov10_horizon", "fov2_oblique", "fov2_horizon"}) {
-        std::size_t poses = 0;
-        for (const flight::CameraPose& pose : *path) poses += pose.name.rfind(kind, 0) == 0 ? 1U : 0U;
-        EXPECT_GE(poses, 1U) << kind;
-    }
 }
 
 }  // namespace

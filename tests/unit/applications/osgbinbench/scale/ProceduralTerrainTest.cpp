@@ -69,20 +69,6 @@ TEST(ProceduralTerrain, BoundsHoldEveryHeightOfATile) {
     }
 }
 
-TEST(ProceduralTerrain, BoundsOfATileHoldThoseOfItsQuarters) {
-    const ProceduralTerrain terrain(kRelief);
-    test::Random random(8103);
-    for (int i = 0; i < 500; ++i) {
-        const TileId tile = randomTile(random, i % 24);
-        const core::Interval bounds = terrain.heightsIn(tile.rect());
-        for (const TileId& child : tile.children()) {
-            const core::Interval part = terrain.heightsIn(child.rect());
-            ASSERT_GE(part.lower, bounds.lower - 1e-6);
-            ASSERT_LE(part.upper, bounds.upper + 1e-6);
-        }
-    }
-}
-
 TEST(ProceduralTerrain, HeightsBetweenPostsAreAsNearToTheLineAsItSays) {
     const ProceduralTerrain terrain(kRelief);
     test::Random random(8104);

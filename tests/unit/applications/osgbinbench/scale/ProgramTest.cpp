@@ -141,34 +141,5 @@ TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
     EXPECT_EQ(runScale("--help").code, 0);
 }
 
-// From high above, across the date line, near a pole, along the ground, through a narrow opening.
-constexpr const char* kPath =
-    "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
-    "dateline,-18,179.5,300000,-16,-179,0,60,10000,5000000\n"
-    "pole,89,0,60000,89.9,20,4000,60,1000,2000000\n"
-    "ground,45,9,9000,45.2,9,4000,60,100,800000\n"
-    "narrow,10,10,200000,14,11,4000,4,10000,4000000\n";
-
-TEST(GlobePictures, AreThoseWithoutCulling) {
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const TemporaryFolder folder;
-    const std::string result = folder / "sums.json";
-    constexpr int kMostSeconds = 300;
-    const Outcome outcome = test::runOnDisplay(
-        test::quoted(BENCH_FILE) +
-            " '(levels=4,cells=4).proceduralglobe' --size 320x240 --repeats 1 --flush 0 --live 0 --path " +
-            test::quoted(folder.write("path.csv", kPath)) + " --json " + test::quoted(result),
-        kMostSeconds);
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const json methods = jsonFile(result)["methods"];
-    ASSERT_GE(methods.size(), 4U);
-    for (const auto& method : methods.items()) {
-        EXPECT_EQ(method.value()["differing_pixels"], 0) << method.key();
-        EXPECT_EQ(method.value()["false_culls"], 0) << method.key();
-        EXPECT_GT(method.value()["files_requested"], 0) << method.key();
-        EXPECT_EQ(method.value()["bytes"], 0) << method.key();
-    }
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin
