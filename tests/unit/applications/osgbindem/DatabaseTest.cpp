@@ -44,20 +44,6 @@ TEST(Database, HoldsWhenTheRasterIsMuchFinerThanTheTiles) {
     checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
 }
 
-TEST(Database, ASinglePeakBetweenPostsIsInEveryBinAboveIt) {
-    const TempFolder folder;
-    TestRaster raster = TestRaster::globe(0.5, [](double latitudeDeg, double longitudeDeg) {
-        return std::abs(latitudeDeg - 33.5) < 0.1 && std::abs(longitudeDeg - 44.5) < 0.1 ? 7000.0 : 0.0;
-    });
-    raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "10", "--levels", "1", "-o", folder.file("earth.osgb")});
-    loadDatabase(folder.file("earth.osgb")).forEach([](const LoadedTile& tile) {
-        const Rect r = tile.rect();
-        const bool isBelow = r.south <= 34.0 && r.north >= 33.0 && r.west <= 45.0 && r.east >= 44.0;
-        EXPECT_EQ(top(tile) >= 7000.0, isBelow);
-    });
-}
-
 TEST(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
     const TempFolder folder;
     TestRaster::globe(1.0, [](double, double) { return 0.0; }).write(folder.file("flat.tif"));
@@ -144,23 +130,6 @@ TEST(Database, DeepTreesAreSpreadOverFolders) {
         if (entry.is_regular_file()) ++inStartFolder;
     }
     EXPECT_LT(inStartFolder, 342U);
-}
-
-TEST(Database, IsTheSameWithAnyNumberOfThreads) {
-    const TempFolder folder;
-    TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
-    TestRaster(10.0, 50.0, 0.1, 0.1, 40, 40, hills).write(folder.file("inset.tif"));
-    fs::create_directory(folder.file("a"));
-    fs::create_directory(folder.file("b"));
-    const std::vector<std::string> common{folder.file("globe.tif"), folder.file("inset.tif"), "--compress", "--packed"};
-    for (const auto& [name, threads] : {std::pair{"a", "1"}, std::pair{"b", "3"}}) {
-        std::vector<std::string> arguments = common;
-        arguments.insert(arguments.end(), {"--threads", threads, "-o", folder.file(std::string(name) + "/earth.osgb")});
-        build(arguments);
-    }
-    const auto a = filesBelow(folder.file("a"));
-    EXPECT_GE(a.size(), 10U);
-    EXPECT_TRUE(a == filesBelow(folder.file("b")));
 }
 
 TEST(Database, OptionsChangeWhatTheySay) {

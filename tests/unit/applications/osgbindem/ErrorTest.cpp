@@ -50,21 +50,6 @@ private:
     TempFolder _folder;
 };
 
-TEST_F(Error, MissingRaster) {
-    expectBadDem(file("absent.tif"), "absent.tif");
-}
-
-TEST_F(Error, UnreadableRaster) {
-    std::ofstream(file("text.tif")) << "no raster";
-    expectBadDem(file("text.tif"), "text.tif");
-}
-
-TEST_F(Error, TruncatedRaster) {
-    fs::copy_file(good(), file("short.tif"));
-    fs::resize_file(file("short.tif"), fs::file_size(good()) / 2);
-    expectBadDem(file("short.tif"), "short.tif");
-}
-
 // GDAL itself would search such a file for its rows without end.
 TEST_F(Error, TruncatedRasterOfText) {
     std::ofstream text(file("short.asc"));
@@ -84,8 +69,6 @@ TEST_F(Error, TruncatedRasterOfHdf5) {
 
 TEST_F(Error, BandsAndOptionsOfGdal) {
     expectError({good(), "-b", "2", "-o", output()}, "no band 2");
-    expectUsageError({good(), "-b", "0", "-o", output()}, "--band");
-    expectUsageError({good(), "-o", output(), "--config", "GDAL_CACHEMAX"}, "--config");
     build({good(), "-o", output(), "--config", "GDAL_CACHEMAX", "100", "--config", "GDAL_NUM_THREADS", "1", "--levels",
            "0", "--cells", "4"});
 }
@@ -134,44 +117,46 @@ TEST_F(Error, RasterWithoutAnyData) {
     expectBadDem(file("empty.tif"), "only missing data");
 }
 
-TEST_F(Error, MissingImage) {
-    expectError({good(), "--image", file("absent.png"), "-o", output()}, "absent.png");
-}
-
-TEST_F(Error, Levels) {
-    expectUsageError({good(), "--levels", "40", "-o", output()}, "--levels: Value 40");
-    expectUsageError({good(), "--levels", "-1", "-o", output()}, "--levels: Value -1");
-    expectUsageError({good(), "--levels", "two", "-o", output()}, "two");
-}
-
-TEST_F(Error, OtherNumbers) {
-    expectUsageError({good(), "--cells", "7", "-o", output()}, "--cells: 7 is not even");
-    expectUsageError({good(), "--cells", "900", "-o", output()}, "--cells: Value 900");
-    expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
-    expectUsageError({good(), "--blend", "-1", "-o", output()}, "--blend");
-    expectUsageError({good(), "--threads", "0", "-o", output()}, "--threads: Value 0");
-    expectUsageError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
-    expectUsageError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
-    expectUsageError({good(), "--radii", "1", "-o", output()}, "--radii");
-}
-
-TEST_F(Error, Scales) {
-    expectUsageError({good(), "--height-unit", "miles", "-o", output()}, "unknown unit \"miles\"");
-    expectUsageError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
-    expectUsageError({good(), "--height-unit", "m", "ft", "-o", output()}, "2 units");
-}
-
 TEST_F(Error, CommandLine) {
+    const std::pair<std::vector<std::string>, const char*> wrongOptions[] = {
+        {{"--levels", "40"}, "--levels: Value 40"},
+        {{"--levels", "-1"}, "--levels: Value -1"},
+        {{"--levels", "two"}, "two"},
+        {{"--cells", "7"}, "--cells: 7 is not even"},
+        {{"--cells", "900"}, "--cells: Value 900"},
+        {{"--blend", "-1"}, "--blend"},
+        {{"--threads", "0"}, "--threads: Value 0"},
+        {{"--lod-factor", "-2"}, "--lod-factor"},
+        {{"--radii", "0", "1"}, "--radii"},
+        {{"--radii", "1"}, "--radii"},
+        {{"--height-unit", "miles"}, "unknown unit \"miles\""},
+        {{"--height-unit", "0"}, "unknown unit \"0\" in --height-unit"},
+        {{"--height-unit", "m", "ft"}, "2 units"},
+        {{"--band", "0"}, "--band"},
+        {{"--config", "GDAL_CACHEMAX"}, "--config"},
+        {{"--frobnicate"}, "--frobnicate"}};
+    for (const auto& [words, what] : wrongOptions) {
+        std::vector<std::string> command{good(), "-o", output()};
+        command.insert(command.end(), words.begin(), words.end());
+        expectUsageError(command, what);
+    }
     expectUsageError({}, "--output");
     expectUsageError({"-o", output()}, "no elevation raster");
-    expectUsageError({good(), "-o", output(), "--frobnicate"}, "--frobnicate");
     expectUsageError({good(), "-o", file("out/earth.ive")}, ".osgb");
 }
 
-TEST_F(Error, Folders) {
+TEST_F(Error, FilesAndFolders) {
+    expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
+    expectError({good(), "--image", file("absent.png"), "-o", output()}, "absent.png");
     expectError({good(), "-o", file("absent/earth.osgb")}, "absent");
     expectError({good(), "-o", good() + "/earth.osgb"}, "good.tif");
     expectError({good(), "-o", "/proc/earth.osgb"}, "/proc/earth.osgb");
+    expectBadDem(file("absent.tif"), "absent.tif");
+    std::ofstream(file("text.tif")) << "no raster";
+    expectBadDem(file("text.tif"), "text.tif");
+    fs::copy_file(good(), file("short.tif"));
+    fs::resize_file(file("short.tif"), fs::file_size(good()) / 2);
+    expectBadDem(file("short.tif"), "short.tif");
 }
 
 TEST_F(Error, SomebodyElsesFolderIsNotReplaced) {

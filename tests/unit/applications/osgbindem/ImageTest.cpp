@@ -240,7 +240,7 @@ TEST_F(Images, BandsShowNoReliefThroughAnImage) {
     EXPECT_EQ(shownAt(database, 47.5, 10.1), kRed);
 }
 
-TEST_F(Images, ThreadsAndPackingChangeNothing) {
+TEST_F(Images, ThreadsChangeNothing) {
     TestImage fine = TestImage::square(8.0, 50.0, 0.05, 90, kRed);
     fine.colourAt = [](double latitudeDeg, double) { return latitudeDeg < 48.0 ? std::nullopt : std::optional(kRed); };
     const Words images{image("blue.tif", TestImage::square(-10.0, 60.0, 0.5, 60, kBlue)), image("fine.tif", fine)};
@@ -249,19 +249,6 @@ TEST_F(Images, ThreadsAndPackingChangeNothing) {
         build(command(threads + "/earth.osgb", images, {"--threads", threads}));
     }
     EXPECT_TRUE(filesBelow(file("1")) == filesBelow(file("3")));
-    build(command("packed.osgb", images, {"--packed"}));
-    const LoadedDatabase packed = loadDatabase(file("packed.osgb"));
-    const LoadedDatabase meshes = loadDatabase(file("1/earth.osgb"));
-    for (const auto& [latitude, longitude] : {std::pair(49.0, 9.0), std::pair(46.5, 9.0), std::pair(58.0, 28.0)}) {
-        const LoadedTile& a = packed.leafAt(latitude, longitude);
-        const LoadedTile& b = meshes.leafAt(latitude, longitude);
-        ASSERT_EQ(textureOf(a) == nullptr, textureOf(b) == nullptr);
-        const auto* aCoordinates = dynamic_cast<const osg::Vec2Array*>(a.geometry->getTexCoordArray(0));
-        const auto* bCoordinates = dynamic_cast<const osg::Vec2Array*>(b.geometry->getTexCoordArray(0));
-        ASSERT_EQ(aCoordinates == nullptr, bCoordinates == nullptr);
-        if (!aCoordinates) continue;
-        EXPECT_EQ(aCoordinates->asVector(), bCoordinates->asVector());
-    }
 }
 
 }  // namespace

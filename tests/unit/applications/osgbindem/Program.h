@@ -10,19 +10,11 @@
 #include <vector>
 
 /// A folder that is removed with everything in it.
-class TempFolder {
+class TempFolder : public osgAnalyticBin::test::TemporaryFolder {
 public:
-    TempFolder();
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-    ~TempFolder();
-
-    [[nodiscard]] std::string file(const std::string& name) const { return (_path / name).string(); }
+    [[nodiscard]] std::string file(const std::string& name) const { return *this / name; }
     /// Names of everything directly in the folder, sorted.
     [[nodiscard]] std::vector<std::string> names() const;
-
-private:
-    std::filesystem::path _path;
 };
 
 struct Outcome {

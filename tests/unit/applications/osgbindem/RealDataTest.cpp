@@ -13,7 +13,6 @@
 namespace {
 
 constexpr const char* kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
-constexpr const char* kRockies = "/usr/share/ncarg/data/cdf/trinidad.nc";
 
 std::string sample(const std::string& name) {
     return SAMPLE_DATA "/dem/" + name;
@@ -36,28 +35,6 @@ TEST(RealData, Etopo5) {
     // The Challenger Deep, in the tile at 135 .. 157.5 E, 0 .. 22.5 N, and all above it.
     EXPECT_LE(database.leafAt(11.3, 142.2).bin.bin().altitude().lower, -10376.0);
     EXPECT_LE(database.tiles[4 * 16 + 14].bin.bin().altitude().lower, -10376.0);
-}
-
-TEST(RealData, RockiesInFeet) {
-    if (!isThere(kRockies)) GTEST_SKIP() << "package libncarg-data is not installed";
-    const TempFolder folder;
-    build({kRockies, "--height-unit", "ft", "--levels", "6", "-te", "-108", "35", "-102", "40", "-o",
-           folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkSharedPosts(database);
-    EXPECT_EQ(database.deepestLevel(), 6);
-    TestRaster rockies(kRockies);
-    rockies.scale(0.3048);
-    database.forEach([&](const LoadedTile& tile) {
-        const Range range = rockies.range(tile.rect());
-        if (range.lower > range.upper) return;
-        EXPECT_LE(tile.bin.bin().altitude().lower, range.lower);
-        EXPECT_GE(tile.bin.bin().altitude().upper, range.upper);
-    });
-    // Blanca Peak is 4374 m; the data have 4322.
-    const double highest = database.leafAt(37.58, -105.49).bin.bin().altitude().upper;
-    EXPECT_GT(highest, 4300.0);
-    EXPECT_LT(highest, 4400.0);
 }
 
 TEST(RealData, EverestWithVoids) {
@@ -94,16 +71,4 @@ TEST(RealData, AleutiansPastTheDateLine) {
         return range;
     });
     EXPECT_NEAR(database.altitudeAt(56.25, 180.0), raster.height(56.25, 180.0), 0.3);
-}
-
-TEST(RealData, Gtopo30WithSeaMissing) {
-    const std::string path = sample("gtopo30_w020n90_cut_3E9E_50N54N.tif");
-    if (!isThere(path)) GTEST_SKIP() << path << " is not there";
-    const TempFolder folder;
-    build({path, "--levels", "5", "-te", "3", "50", "9", "54", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    // Kahler Asten; the sea is at 0.
-    EXPECT_GE(database.leafAt(51.18, 8.49).bin.bin().altitude().upper, 817.0);
-    EXPECT_NEAR(database.altitudeAt(53.9, 3.5), 0.0, 0.3);
-    EXPECT_GT(database.leafAt(53.9, 3.5).bin.bin().altitude().lower, -200.0);
 }

@@ -48,10 +48,6 @@ TestRaster::TestRaster(const std::string& path) {
     if (error != CE_None) throw std::runtime_error("cannot read " + path);
 }
 
-void TestRaster::scale(double factor) {
-    for (double& height : _heights) height *= factor;
-}
-
 void TestRaster::write(const std::string& path) const {
     GDALAllRegister();
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");

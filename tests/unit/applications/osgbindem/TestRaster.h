@@ -50,8 +50,6 @@ public:
     /// Bilinear between posts, longitudes modulo 360; NaN outside.
     [[nodiscard]] double height(double latitudeDeg, double longitudeDeg) const;
 
-    void scale(double factor);
-
 private:
     [[nodiscard]] double at(int column, int row) const {
         return _heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(_width) +

@@ -8,17 +8,12 @@
 #include "Program.h"
 #include "TestRaster.h"
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 
 namespace {
-
-constexpr const char* kGlobeRaster = "/usr/share/ferret-vis/data/etopo5.cdf";
 
 constexpr int kAround = 20;
 
@@ -250,42 +245,6 @@ TEST_F(Voids, DataOfOneRasterWinsOverFillsOfTheOther) {
                     EXPECT_NEAR(mosaic.height(position), hills(position.latitudeDeg, position.longitudeDeg), 12.0);
                 }
             }
-        }
-    }
-}
-
-TEST_F(Voids, CutIntoMountainsOverEtopo5) {
-    const std::string path = SAMPLE_DATA "/dem/everest_srtm3_N27E086.tif";
-    if (!std::filesystem::exists(path) || !std::filesystem::exists(kGlobeRaster))
-        GTEST_SKIP() << path << " or " << kGlobeRaster << " is not there";
-    GDALAllRegister();
-    Grid grid{86.0, 28.0, 1.0 / 1200.0, 1201, 1201, std::vector<double>(1201 * 1201), {}};
-    const osgbindem::GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
-    ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 1201, 1201, grid.truth.data(), 1201, 1201, GDT_Float64,
-                                                  0, 0, nullptr),
-              CE_None);
-    for (double& height : grid.truth)
-        if (height == -32768.0) height = std::nan("");
-    grid.heights = grid.truth;
-    grid.cut(rectangles(100, 60));
-    grid.write(fine());
-    DemMosaic mosaic(settingsFor({kGlobeRaster, fine()}));
-    EXPECT_GT(expectFilled(grid, mosaic), 10000);
-    // Of the voids that the raster has itself the truth is unknown: they are no pillars, that is, no higher than the
-    // ground around them by more than its relief.
-    // At the raster's border they meet the coarser raster.
-    for (int row = kAround; row < grid.height - kAround; row += 5) {
-        for (int column = kAround; column < grid.width - kAround; column += 5) {
-            if (!std::isnan(grid.truth[grid.index(column, row)])) continue;
-            const int reach = distanceToData(grid, column, row) + kAround;
-            Range range;
-            for (int v = std::max(0, row - reach); v <= std::min(grid.height - 1, row + reach); ++v)
-                for (int u = std::max(0, column - reach); u <= std::min(grid.width - 1, column + reach); ++u)
-                    if (!grid.isMissing(u, v)) range.include(grid.heights[grid.index(u, v)]);
-            const double height = mosaic.height(grid.position(column, row));
-            const double relief = range.upper - range.lower;
-            EXPECT_LE(height, range.upper + relief) << column << ' ' << row;
-            EXPECT_GE(height, range.lower - relief) << column << ' ' << row;
         }
     }
 }
