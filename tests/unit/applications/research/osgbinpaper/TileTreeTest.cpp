@@ -109,5 +109,21 @@ TEST_F(TileTreeTest, TheRecursionEndsAtOutsideAndAtInside) {
     EXPECT_GT(untested, 100U);
 }
 
+TEST(Camera, ARandomOneKeepsToItsKindAndItsNumber) {
+    const TestGlobe globe;
+    Terrain terrain = globe.terrain(0);
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
+        for (std::size_t number = 0; number < 20; ++number) {
+            const Camera camera = randomCamera(terrain, kind, number);
+            const core::Geodetic position = wgs84().toGeodetic(camera.eye);
+            const double above = position.altitude - terrain.onSurface(position).altitude;
+            EXPECT_GE(above, kViewKinds[kind].lowest - 1e-3);
+            EXPECT_LE(above, kViewKinds[kind].highest + 1e-3);
+            EXPECT_EQ(camera.eye, randomCamera(terrain, kind, number).eye);
+            EXPECT_NE(camera.eye, randomCamera(terrain, kind, number + 1).eye);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::paper

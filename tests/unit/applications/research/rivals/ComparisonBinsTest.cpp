@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The two published rules must be what they claim to be, faults included. Oracles: the rules written down a second
-// time; the closed form, against which they are shown to be wrong.
+// The two published rules must be what they claim to be. Oracle: the rules written down a second time. That they are
+// wrong: Soundness.cpp, and osgbinpaper.ExperimentTest.CornersAndThePublishedRuleCullWhatIsSeen.
 
 #include "ComparisonBins.h"
 
@@ -188,43 +188,6 @@ TEST(PaperBin, MissesTheMaximumThisOften) {
             EXPECT_GT(percent(m.corners), 4.0);
         }
     }
-}
-
-struct FalseVerdicts {
-    int outside = 0;
-    int inside = 0;
-};
-
-template <class Bin>
-FalseVerdicts falseVerdicts(std::uint64_t stream) {
-    Random random(stream);
-    FalseVerdicts wrong;
-    for (int trial = 0; trial < 100000; ++trial) {
-        const BinOracle oracle(wgs84(), randomTile(random, random.integer(0, 2), kTerrainAltitudes));
-        const PlaneKind kind = random.chance(0.5) ? PlaneKind::NearMaximum : PlaneKind::NearMinimum;
-        const Plane plane = randomPlane(random, oracle, kind);
-        const Side side = Bin(GeodeticMapping(wgs84()), core::parameterBox(oracle.bin())).classify(plane);
-        const RealRange truth = oracle.distanceRange(plane);
-        if (side == Side::Outside && truth.upper > kTie) ++wrong.outside;
-        if (side == Side::Inside && truth.lower < -kTie) ++wrong.inside;
-    }
-    return wrong;
-}
-
-TEST(PaperBin, IsKnownToBeUnsound) {
-    const FalseVerdicts wrong = falseVerdicts<PaperBin>(83);
-    std::printf("paper: %d false outside, %d false inside of 100000 nearly tangent planes\n", wrong.outside,
-                wrong.inside);
-    EXPECT_GT(wrong.outside, 0);
-    EXPECT_GT(wrong.inside, 0);
-}
-
-TEST(CornersBin, IsKnownToBeUnsound) {
-    const FalseVerdicts wrong = falseVerdicts<CornersBin>(84);
-    std::printf("corners: %d false outside, %d false inside of 100000 nearly tangent planes\n", wrong.outside,
-                wrong.inside);
-    EXPECT_GT(wrong.outside, 0);
-    EXPECT_GT(wrong.inside, 0);
 }
 
 }  // namespace

@@ -35,26 +35,6 @@ HorizonPoint pointOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double 
     return HorizonPoint(HorizonBin(ellipsoid, bin, margin));
 }
 
-TEST(HorizonPoint, NeverHidesWhatTheBinItselfDoesNot) {
-    Random random(422);
-    int byBoth = 0;
-    int byBin = 0;
-    for (int trial = 0; trial < 200000; ++trial) {
-        const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
-        const glm::dvec3 eye = randomEye(random, wgs84(), kPointDepth);
-        const auto prepared = HorizonEye::fromEye(wgs84(), kPointDepth, eye);
-        if (!prepared) continue;
-        const bool isBinHidden = prepared->hides(HorizonBin(wgs84(), bin));
-        const bool isPointHidden = pointOf(wgs84(), bin).isHiddenFrom(*prepared);
-        ASSERT_TRUE(isBinHidden || !isPointHidden) << "trial " << trial;
-        byBin += isBinHidden ? 1 : 0;
-        byBoth += isPointHidden ? 1 : 0;
-    }
-    std::printf("hidden by the point: %.2f %% of what is hidden by the bin\n", 100.0 * byBoth / byBin);
-    EXPECT_LT(byBoth, byBin) << "the point is no better than it can be";
-    EXPECT_GT(byBoth, 0.9 * byBin);
-}
-
 // The point as [R13] has it, from samples in the space where the occluder is the unit ball: along the middle, as high
 // as the sample needs that needs most.
 std::optional<RealVector> sampledPoint(const GeodeticBin& bin, Real scale) {
