@@ -187,17 +187,6 @@ TEST(CameraPath, TheShippedPathsAreGoodTogetherAndNamedForTheirFiles) {
     }
 }
 
-TEST(CameraPath, TheShippedStereoPathIsMadeOfPairs) {
-    std::string error;
-    const auto path = readCameraPathFile(std::string(SHIPPED_PATHS) + "/stereo.csv", error);
-    ASSERT_TRUE(path.has_value()) << error;
-    ASSERT_EQ(path->size() % 2, 0U);
-    for (std::size_t i = 0; i < path->size(); i += 2) {
-        EXPECT_LT((*path)[i].eyeRight, 0.0) << (*path)[i].name;
-        EXPECT_EQ((*path)[i].eyeRight, -(*path)[i + 1].eyeRight) << (*path)[i].name;
-    }
-}
-
 TEST(CameraPath, TheDemosPathIsGood) {
     std::string error;
     const auto path = readCameraPathFile(DEMO_PATH_FILE, error);

@@ -146,6 +146,7 @@ TEST(ReportProgram, SaysByItsExitCodeWhatItFound) {
     EXPECT_EQ(exitCodeOf(none + " " + same), 0);
     EXPECT_EQ(exitCodeOf(none + " " + same + " " + other), 1);
     EXPECT_EQ(exitCodeOf(none + " " + (folder / "gone")), 1);
+    EXPECT_EQ(exitCodeOf(""), 2);
 }
 
 }  // namespace

@@ -126,23 +126,6 @@ TEST(ViewerFlight, AStoredDatabaseNeedsNothingButTheModules) {
     EXPECT_LT(run.sum("tilesKept"), report->flights()[0].sum("tilesKept"));
 }
 
-TEST(ViewerFlight, EveryThreadingModelDrawsTheSamePictures) {
-    if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
-    const Flights flights;
-    ASSERT_FALSE(flights.database.empty());
-    const std::vector<std::string> models{"SingleThreaded", "CullDrawThreadPerContext", "DrawThreadPerContext",
-                                          "CullThreadPerCameraDrawThreadPerContext"};
-    std::vector<std::string> folders{flights.fly("none", models.front())};
-    for (const std::string& model : models) folders.push_back(flights.fly("quadratic", model));
-    std::string error;
-    const auto report = Report::of(folders, "", error);
-    ASSERT_TRUE(report.has_value()) << error << '\n' << flights.lastLog;
-    expectEqualPictures(*report);
-    for (std::size_t model = 2; model < folders.size(); ++model)
-        EXPECT_EQ(report->flights()[model].figures.at("tilesDrawn"), report->flights()[1].figures.at("tilesDrawn"))
-            << models[model - 1];
-}
-
 TEST(ViewerFlight, AFileThatIsMissingIsAnErrorWithoutATable) {
     if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
     const Flights flights;

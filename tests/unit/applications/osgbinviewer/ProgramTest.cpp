@@ -39,6 +39,11 @@ TEST(ViewerProgram, NamesTheDatabaseAsTheUserDid) {
     expectOneLine(runWithoutDisplay("'0.proceduralglobe.(metod=exact).analyticbin'"), "metod");
 }
 
+TEST(ViewerProgram, RefusesAWrongCommandLine) {
+    for (const char* const wrong : {"", "earth.osgb --options metod=exact", "earth.osgb --frobnicate"})
+        EXPECT_EQ(runWithoutDisplay(wrong).code, 2) << wrong;
+}
+
 TEST(ViewerProgram, HelpAndVersionNeedNoDisplay) {
     EXPECT_EQ(runWithoutDisplay("--help").code, 0);
     EXPECT_EQ(runWithoutDisplay("--version").code, 0);
