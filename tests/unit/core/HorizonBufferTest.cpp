@@ -43,6 +43,36 @@ BinHull ball(const glm::dvec3& centre, double reach) {
     return body;
 }
 
+// Returns: how many quarters of tiles are hidden.
+int hideNothingThatARayReaches(Random& random, int scenes, bool isMap) {
+    int hidden = 0;
+    for (int i = 0; i < scenes; ++i) {
+        const OcclusionScene scene(random, true, isMap);
+        HorizonBuffer buffer = bufferOf(scene);
+        const std::size_t cells = random.pick(std::array<std::size_t, 3>{2, 4, 8});
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays; ++ray) {
+                const RealVector point = scene.pointIn(random, part);
+                EXPECT_TRUE(!isBeforeTheCamera(scene, point) || scene.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    return hidden;
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReaches) {
+    Random random(1700);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, false), 150);
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReachesInAMap) {
+    Random random(1718);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, true), 60);
+}
+
 // A view serves eyes around its own: an eye that is elsewhere is the same as points that are.
 TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnEyeWithinTheErrors) {
     Random random(1711);
@@ -67,6 +97,29 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnEyeWithinTheErrors) {
         }
     }
     EXPECT_GT(hidden, 30);
+}
+
+// The same where the eye may be farther away along one axis than along another: a camera that flies ahead.
+TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
+    Random random(1713);
+    int hidden = 0;
+    for (int i = 0; i < 60; ++i) {
+        const OcclusionScene scene(random);
+        const glm::dvec3 eyes = randomEyes(random, scene);
+        HorizonBuffer buffer = bufferOf(scene, eyes);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+        OcclusionScene moved = scene;
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays / 4; ++ray) {
+                if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
+                const RealVector point = scene.pointIn(random, part);
+                ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 60);
 }
 
 TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
