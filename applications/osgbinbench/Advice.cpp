@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Advice.h"
-
 #include "CullMethod.h"
+#include "Output.h"
 #include "TextFile.h"
 
 #include <algorithm>
@@ -33,21 +32,7 @@ const MethodFigures* methodNamed(const std::vector<MethodFigures>& methods, cons
     return found == methods.end() ? nullptr : &*found;
 }
 
-double tilesOf(const Figures& sum) {
-    return static_cast<double>(sum.drawnTiles);
-}
-
-double filesOf(const Figures& sum) {
-    return static_cast<double>(sum.filesRequested);
-}
-
-double timeOf(const Figures& sum) {
-    return sum.cullMs;
-}
-
-double coldTimeOf(const Figures& sum) {
-    return sum.cullColdMs;
-}
+constexpr const char* kTiles = "drawn_tiles";
 
 /// Bins against the better of two methods, over some poses.
 class Judge {
@@ -59,11 +44,12 @@ public:
 
     [[nodiscard]] bool isPossible() const { return _bins && (_spheres || _clusters); }
 
-    [[nodiscard]] Comparison compare(double (*value)(const Figures&), const PathGroup& poses) const {
-        Comparison better{value(sumOf(*_bins, poses)), 0.0, {}};
+    [[nodiscard]] Comparison compare(const char* column, const PathGroup& poses) const {
+        const auto value = [&](const MethodFigures& method) { return sumOf(method, poses)[column].get<double>(); };
+        Comparison better{value(*_bins), 0.0, {}};
         const auto consider = [&](const MethodFigures* method, const char* name) {
             if (!method) return;
-            const double other = value(sumOf(*method, poses));
+            const double other = value(*method);
             if (better.name.empty() || other < better.other) {
                 better.other = other;
                 better.name = name;
@@ -108,7 +94,7 @@ std::string costSentence(const Comparison& files, const Comparison& time, const 
 std::string whereSentence(const Judge& judge, const std::vector<PathGroup>& paths) {
     std::string where;
     for (const PathGroup& path : paths) {
-        const Comparison tiles = judge.compare(tilesOf, path), time = judge.compare(timeOf, path);
+        const Comparison tiles = judge.compare(kTiles, path), time = judge.compare(kCullColumn, path);
         if (tiles.isGain() && !time.isLoss()) continue;
         if (!tiles.isLoss() && time.isGain()) continue;
         where += (where.empty() ? "" : ", ") + path.name + " (" + withDecimals(tiles.ratio(), 2) +
@@ -125,9 +111,9 @@ std::vector<std::string> adviceOf(const std::vector<std::string>& poses, const s
     if (!judge.isPossible()) return {};
     PathGroup all;
     for (std::size_t i = 0; i < poses.size(); ++i) all.poses.push_back(i);
-    const Comparison tiles = judge.compare(tilesOf, all), files = judge.compare(filesOf, all),
-                     time = judge.compare(timeOf, all);
-    return {tilesSentence(tiles, time), costSentence(files, time, judge.compare(coldTimeOf, all), poses.size()),
+    const Comparison tiles = judge.compare(kTiles, all), files = judge.compare("files_requested", all),
+                     time = judge.compare(kCullColumn, all);
+    return {tilesSentence(tiles, time), costSentence(files, time, judge.compare(kCullColdColumn, all), poses.size()),
             whereSentence(judge, pathGroupsOf(poses))};
 }
 

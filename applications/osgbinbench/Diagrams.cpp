@@ -28,29 +28,30 @@ struct BarChart {
     const char* numberFormat;
     bool isRatio;
     bool hasSpread;
-    double (*value)(const Figures& sum, double poses);
+    double (*value)(const Json& sum, double poses);
 };
 
 constexpr std::array<BarChart, 3> kBarCharts{{
     {"drawn", "Tiles drawn for each tile needed, sums over the poses of a path",
      "tiles drawn / tiles needed (logarithmic)", "%.2f", true, false,
-     [](const Figures& sum, double) {
-         return sum.truthTiles > 0 ? static_cast<double>(sum.drawnTiles) / static_cast<double>(sum.truthTiles)
-                                   : std::nan("");
+     [](const Json& sum, double) {
+         const auto needed = sum["truth_tiles"].get<double>();
+         return needed > 0.0 ? sum["drawn_tiles"].get<double>() / needed : std::nan("");
      }},
     {"files", "Files requested on arrival at a pose, mean over the poses of a path", "files a pose", "%.0f", false,
-     false, [](const Figures& sum, double poses) { return static_cast<double>(sum.filesRequested) / poses; }},
+     false, [](const Json& sum, double poses) { return sum["files_requested"].get<double>() / poses; }},
     {"cull", "Time of a cull traversal, mean over the poses of a path; whiskers: half the quartile spread either way",
-     "milliseconds a pose", "%.3f", false, true, [](const Figures& sum, double poses) { return sum.cullMs / poses; }},
+     "milliseconds a pose", "%.3f", false, true,
+     [](const Json& sum, double poses) { return sum[kCullColumn].get<double>() / poses; }},
 }};
 
 Json rowOf(const BarChart& chart, const PathGroup& group, const Methods& methods) {
     Json row{{"path", group.name}};
     const auto poses = static_cast<double>(group.poses.size());
     for (const MethodFigures& method : methods) {
-        const Figures sum = sumOf(method, group);
+        const Json sum = sumOf(method, group);
         row[method.method] = chart.value(sum, poses);
-        if (chart.hasSpread) row[method.method + " half spread"] = sum.cullSpreadMs / 2.0 / poses;
+        if (chart.hasSpread) row[method.method + " half spread"] = sum["cull_spread_ms"].get<double>() / 2.0 / poses;
     }
     return row;
 }

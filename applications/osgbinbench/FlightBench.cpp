@@ -3,6 +3,7 @@
 
 #include "FlightBench.h"
 
+#include "BenchViewer.h"
 #include "Interruption.h"
 #include "ProgressLine.h"
 #include "Quantiles.h"
@@ -19,12 +20,21 @@ namespace osgAnalyticBin::bench {
 namespace {
 
 constexpr std::size_t kFramesPerTurn = 50;
+constexpr std::size_t kRounds = 3;  // of flights that are drawn
 
+double sumOf(const std::vector<double>& times) {
+    return std::accumulate(times.begin(), times.end(), 0.0);
+}
+
+/// The frames of one method that are culled only.
 class Flight {
 public:
+    static constexpr const char* kLeftOut = " does not fly: its verdicts hold for one pose";
+    [[nodiscard]] static bool leavesOut(const CullMethod& method) { return method.replaysVerdicts; }
+
     Flight(const CullMethod& method, const Settings& settings, FileWatch& watch)
         : _scene(method, settings, watch), _watch(watch), _period(1.0 / settings.frameRate) {
-        for (const FlightColumn& column : kFlightColumns) _sums[column.name] = std::uint64_t{0};
+        for (const Column& column : kFlightColumns) _sums[column.name] = std::uint64_t{0};
         _scene.load();
         _scene.pause();
     }
@@ -44,15 +54,15 @@ public:
         add("complete_ms", static_cast<std::uint64_t>(passed.count()));
     }
 
-    [[nodiscard]] FlightFigures figures() {
+    [[nodiscard]] MethodFigures figures() {
         const support::Quantiles times(_times);
-        FlightFigures figures{_scene.method().name, {{"frames", _times.size()}}};
+        report::Json row{{"frames", _times.size()}};
         _sums["resident_tiles"] = flight::residentTiles(_scene.root());
-        _sums[kCullColumn] = std::accumulate(_times.begin(), _times.end(), 0.0);
+        _sums[kCullColumn] = sumOf(_times);
         _sums["cull_median_ms"] = times.at(50, 100);
         _sums["cull_99th_ms"] = times.at(99, 100);
-        figures.sums.update(_sums);
-        return figures;
+        row.update(_sums);
+        return {_scene.method().name, {row}};
     }
 
 private:
@@ -99,14 +109,70 @@ private:
     std::vector<double> _times;
 };
 
-std::vector<std::unique_ptr<Flight>> flightsOf(const Settings& settings, const std::vector<CullMethod>& methods,
-                                               FileWatch& watch) {
-    std::vector<std::unique_ptr<Flight>> flights;
+/// The frames of all flights of one method.
+class DrawnFlight {
+public:
+    static constexpr const char* kLeftOut = " is not drawn in flight";
+    [[nodiscard]] static bool leavesOut(const CullMethod& method) {
+        return method.replaysVerdicts || method.cullsNothing;
+    }
+
+    DrawnFlight(const CullMethod& method, const Settings& settings, FileWatch& watch)
+        : _scene(method, settings, watch) {}
+
+    void fly(BenchViewer& viewer, const std::vector<flight::CameraPose>& frames) {
+        _scene.load();
+        viewer.show(_scene.root(), _scene.camera().getCullingMode());
+        viewer.startTimes();
+        for (const flight::CameraPose& pose : frames) {
+            // later rounds are flown to their end, so that all methods have flown as far
+            if (_times.empty()) support::throwIfStopRequested();
+            _scene.setPose(pose);
+            viewer.setView(_scene.camera());
+            viewer.timeFrame();
+        }
+        const std::vector<FrameTimes> times = viewer.takeTimes();
+        _times.insert(_times.end(), times.begin(), times.end());
+        viewer.rest();
+        _scene.pause();
+    }
+
+    [[nodiscard]] MethodFigures figures() const {
+        std::vector<double> cullMs, drawMs, workMs, frameMs;
+        for (const FrameTimes& frame : _times) {
+            cullMs.push_back(frame.cullMs);
+            drawMs.push_back(frame.drawMs);
+            workMs.push_back(frame.cullMs + frame.drawMs);
+            frameMs.push_back(frame.frameMs);
+        }
+        const support::Quantiles work(workMs), whole(frameMs);
+        const report::Json row{{"frames", _times.size()},
+                               {kCullColumn, sumOf(cullMs)},
+                               {"draw_ms", sumOf(drawMs)},
+                               {"work_1st_ms", work.at(1, 100)},
+                               {"work_median_ms", work.at(50, 100)},
+                               {"work_99th_ms", work.at(99, 100)},
+                               {"frame_ms", sumOf(frameMs)},
+                               {"frame_1st_ms", whole.at(1, 100)},
+                               {"frame_median_ms", whole.at(50, 100)},
+                               {"frame_99th_ms", whole.at(99, 100)}};
+        return {_scene.method().name, {row}};
+    }
+
+private:
+    MethodScene _scene;
+    std::vector<FrameTimes> _times;
+};
+
+template <class AnyFlight>
+std::vector<std::unique_ptr<AnyFlight>> flightsOf(const Settings& settings, const std::vector<CullMethod>& methods,
+                                                  FileWatch& watch) {
+    std::vector<std::unique_ptr<AnyFlight>> flights;
     for (const CullMethod& method : methods) {
-        if (method.replaysVerdicts)
-            std::cerr << "osgbinbench: " << method.name << " does not fly: its verdicts hold for one pose" << std::endl;
+        if (AnyFlight::leavesOut(method))
+            std::cerr << "osgbinbench: " << method.name << AnyFlight::kLeftOut << std::endl;
         else
-            flights.push_back(std::make_unique<Flight>(method, settings, watch));
+            flights.push_back(std::make_unique<AnyFlight>(method, settings, watch));
     }
     return flights;
 }
@@ -117,17 +183,18 @@ bool isStopped(std::size_t done) {
     return support::stopRequested;
 }
 
-std::vector<FlightFigures> figuresOf(const std::vector<std::unique_ptr<Flight>>& flights) {
-    std::vector<FlightFigures> figures;
+template <class AnyFlight>
+std::vector<MethodFigures> figuresOf(const std::vector<std::unique_ptr<AnyFlight>>& flights) {
+    std::vector<MethodFigures> figures;
     for (const auto& flight : flights) figures.push_back(flight->figures());
     return figures;
 }
 
 }  // namespace
 
-std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
+std::vector<MethodFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
                                            const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
-    const auto flights = flightsOf(settings, methods, watch);
+    const auto flights = flightsOf<Flight>(settings, methods, watch);
     support::ProgressLine progress(stderr);
     for (std::size_t begin = 0; begin < frames.size() && !isStopped(begin); begin += kFramesPerTurn) {
         progress.show(static_cast<double>(begin) / static_cast<double>(frames.size()),
@@ -139,15 +206,28 @@ std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::
     return figuresOf(flights);
 }
 
-std::vector<FlightFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
+std::vector<MethodFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
                                 const std::vector<flight::CameraPose>& poses, FileWatch& watch) {
-    const auto flights = flightsOf(settings, methods, watch);
+    const auto flights = flightsOf<Flight>(settings, methods, watch);
     support::ProgressLine progress(stderr);
     for (std::size_t i = 0; i < poses.size() && !isStopped(i); ++i) {
         progress.show(static_cast<double>(i) / static_cast<double>(poses.size()),
                       "osgbinbench: " + std::to_string(poses.size()) + " jumps with paging live, ");
         for (std::size_t k = 0; k < flights.size(); ++k)
             flights[(k + i) % flights.size()]->jumpTo(poses[i], settings.timeout);
+    }
+    return figuresOf(flights);
+}
+
+std::vector<MethodFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
+                                    const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+    BenchViewer viewer(settings.width, settings.height, settings.threading);
+    viewer.sortByState();
+    const auto flights = flightsOf<DrawnFlight>(settings, methods, watch);
+    for (std::size_t round = 0; round < kRounds && (round == 0 || !support::stopRequested); ++round) {
+        std::cerr << "osgbinbench: " << frames.size() << " frames drawn with paging live, round " << round + 1 << " of "
+                  << kRounds << std::endl;
+        for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);
     }
     return figuresOf(flights);
 }

@@ -85,8 +85,7 @@ void addMeanings(TextTable& table, const Columns& columns) {
 TextTable meanings() {
     TextTable table(2);
     table.add({"figure", "meaning"});
-    addMeanings(table, kCountColumns);
-    addMeanings(table, kTimeColumns);
+    addMeanings(table, kPoseColumns);
     addMeanings(table, kFlightColumns);
     return table;
 }

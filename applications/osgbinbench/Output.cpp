@@ -5,7 +5,6 @@
 
 #include "CullMethod.h"
 #include "Interruption.h"
-#include "PathGroups.h"
 #include "Table.h"
 #include "ThreadingName.h"
 
@@ -41,38 +40,23 @@ Json headOf(const Settings& settings, const char* mode) {
     return json;
 }
 
-Json sumsOf(const std::vector<FlightFigures>& methods) {
-    Json sums;
-    for (const FlightFigures& method : methods) sums[method.method] = method.sums;
-    return sums;
-}
-
-Json sumsOf(const Figures& sum) {
-    Json sums;
-    for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
-    for (const TimeColumn& column : kTimeColumns) sums[column.name] = sum.*column.ms;
-    return sums;
-}
-
-Json byPose(const MethodFigures& method) {
-    Json columns;
-    for (const Figures& pose : method.poses) {
-        for (const CountColumn& column : kCountColumns) columns[column.name].push_back(pose.*column.count);
-        for (const TimeColumn& column : kTimeColumns) columns[column.name].push_back(pose.*column.ms);
-    }
-    return columns;
-}
-
 Json sumsOf(const std::vector<MethodFigures>& methods) {
     Json sums;
-    for (const MethodFigures& method : methods) sums[method.method] = sumsOf(method.sum());
+    for (const MethodFigures& method : methods) sums[method.method] = sumOf(method);
     return sums;
 }
 
 Json sumsOf(const std::vector<MethodFigures>& methods, const PathGroup& group) {
     Json sums;
-    for (const MethodFigures& method : methods) sums[method.method] = sumsOf(sumOf(method, group));
+    for (const MethodFigures& method : methods) sums[method.method] = sumOf(method, group);
     return sums;
+}
+
+Json byPose(const MethodFigures& method) {
+    Json columns;
+    for (const Json& row : method.rows)
+        for (const auto& [column, value] : row.items()) columns[column].push_back(value);
+    return columns;
 }
 
 // Gives each method its times as multiples of what culling would cost if tests were free, where that was measured.
@@ -140,43 +124,32 @@ TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<Me
 
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
     std::vector<Json> rows;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t i = 0; i < methods.front().rows.size(); ++i) {
         for (const MethodFigures& method : methods) {
-            rows.push_back({{"pose", poses[i]}, {"method", method.method}});
-            rows.back().update(sumsOf(method.poses[i]));
+            Json& row = rows.emplace_back();
+            if (!poses.empty()) row["pose"] = poses[i];
+            row["method"] = method.method;
+            row.update(method.rows[i]);
         }
     }
     return report::csvOf(rows);
 }
 
-std::string csvOf(const std::vector<FlightFigures>& methods) {
-    std::vector<Json> rows;
-    for (const FlightFigures& method : methods) {
-        rows.push_back({{"method", method.method}});
-        rows.back().update(method.sums);
-    }
-    return report::csvOf(rows);
-}
-
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                   const std::vector<MethodFigures>& methods, const std::vector<FlightFigures>& live) {
-    Json json = headOf(settings, "poses");
-    json["poses"] = poses.size();
+                   const std::vector<MethodFigures>& methods, const std::vector<MethodFigures>& live) {
+    const bool isFlight = poses.empty();
+    Json json = headOf(settings, !isFlight ? "poses" : settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
+    if (!isFlight) json["poses"] = poses.size();
     json["methods"] = sumsOf(methods);
     for (const PathGroup& group : pathGroupsOf(poses)) {
         Json& path = json["paths"][group.name];
         path["poses"] = group.poses.size();
         path["methods"] = sumsOf(methods, group);
     }
-    if (!live.empty()) json["live"] = {{"frames", live.front().sums["frames"]}, {"methods", sumsOf(live)}};
-    json["pose_names"] = poses;
-    for (const MethodFigures& method : methods) json["by_pose"][method.method] = byPose(method);
-    return json.dump(2) + "\n";
-}
-
-std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
-    Json json = headOf(settings, settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
-    json["methods"] = sumsOf(methods);
+    if (!live.empty()) json["live"] = {{"frames", live.front().rows.front()["frames"]}, {"methods", sumsOf(live)}};
+    if (!isFlight) json["pose_names"] = poses;
+    for (const MethodFigures& method : methods)
+        if (!isFlight) json["by_pose"][method.method] = byPose(method);
     return json.dump(2) + "\n";
 }
 
@@ -184,17 +157,11 @@ std::vector<TextTable> tablesOf(const std::vector<std::string>& poses, const std
     const Json sums = sumsOf(methods);
     Json shown = sums;
     addTimesOverOracle(shown);
-    std::vector<TextTable> tables{tableOf("sums over poses", shown, 3)};
+    std::vector<TextTable> tables{poses.empty() ? tableOf("paging live", shown, 4)
+                                                : tableOf("sums over poses", shown, 3)};
     addRatios(tables, sums);
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
     if (groups.size() > 1) tables.push_back(tableByPath(groups, methods));
-    return tables;
-}
-
-std::vector<TextTable> tablesOf(const std::vector<FlightFigures>& methods) {
-    const Json sums = sumsOf(methods);
-    std::vector<TextTable> tables{tableOf("paging live", sums, 4)};
-    addRatios(tables, sums);
     return tables;
 }
 

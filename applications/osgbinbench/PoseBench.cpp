@@ -12,6 +12,7 @@
 
 #include <osgDB/WriteFile>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace osgAnalyticBin::bench {
@@ -19,13 +20,6 @@ namespace osgAnalyticBin::bench {
 using support::Failure;
 
 namespace {
-
-std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second) {
-    std::string error;
-    const auto difference = report::compare(first, second, error);
-    if (!difference) throw Failure("the pictures cannot be compared: " + error);
-    return difference->pixels;
-}
 
 // With more tiles in memory than this the scene of the bins starts from the root file again.
 constexpr std::uint64_t kMostBinTiles = 10000;
@@ -38,27 +32,19 @@ CullMethod binMethod() {
     return method;
 }
 
-void countFalseVerdicts(Figures& figures, const flight::Census& census, const NeededTiles& needed,
-                        const std::map<std::string, std::uint64_t>& visible) {
+void addFalseVerdicts(report::Json& row, const flight::Census& census, const NeededTiles& needed,
+                      const std::map<std::string, std::uint64_t>& visible) {
     const std::set<std::string> drawn = census.keys();
+    std::uint64_t culls = 0, pixelsOfThese = 0;
     for (const auto& [key, pixels] : visible) {
         if (drawn.count(key) != 0) continue;
-        ++figures.falseCulls;
-        figures.falseCullPixels += pixels;
+        ++culls;
+        pixelsOfThese += pixels;
     }
-    for (const std::string& key : drawn) figures.falseKeeps += needed.keys.count(key) == 0 ? 1U : 0U;
-}
-
-Figures figuresOf(const flight::Census& census) {
-    Figures figures;
-    figures.nodes = census.nodes;
-    figures.testedTiles = census.tested;
-    figures.keptTiles = census.kept;
-    figures.drawnTiles = census.tiles.size();
-    figures.drawables = census.drawables;
-    figures.triangles = census.triangles;
-    figures.pagedLods = census.pagedLods;
-    return figures;
+    row["false_culls"] = culls;
+    row["false_cull_pixels"] = pixelsOfThese;
+    row["false_keeps"] =
+        std::count_if(drawn.begin(), drawn.end(), [&](const auto& key) { return needed.keys.count(key) == 0; });
 }
 
 }  // namespace
@@ -81,13 +67,13 @@ std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>&
                       "osgbinbench: pose " + std::to_string(i + 1) + " of " + std::to_string(path.size()) + ", " +
                           path[i].name + ", ");
         try {
-            const std::vector<Figures> figures = measure(path[i]);
-            for (std::size_t m = 0; m < methods.size(); ++m) methods[m].poses.push_back(figures[m]);
+            const std::vector<report::Json> rows = measure(path[i]);
+            for (std::size_t m = 0; m < methods.size(); ++m) methods[m].rows.push_back(rows[m]);
         } catch (const support::Interrupted&) {
             break;
         }
     }
-    if (methods.front().poses.empty()) throw support::Interrupted("interrupted before the first pose was measured");
+    if (methods.front().rows.empty()) throw support::Interrupted("interrupted before the first pose was measured");
     return methods;
 }
 
@@ -136,7 +122,7 @@ void PoseBench::learnBins(const flight::CameraPose& pose) {
     _truth.learnBins(_binScene.census().tiles);
 }
 
-std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
+std::vector<report::Json> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Visit> visits;
     for (const auto& scene : _scenes) visits.push_back(visit(*scene, pose));
     checkReplays(visits, pose.name);
@@ -148,23 +134,30 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
     const std::vector<CullTimes> times = cullTimes(_scenes, _settings.repeats, _settings.flush);
 
-    std::vector<Figures> figures;
+    std::vector<report::Json> rows;
     for (std::size_t i = 0; i < visits.size(); ++i) {
-        Figures& f = figures.emplace_back(figuresOf(visits[i].census));
-        f.truthTiles = needed.keys.size();
-        f.hiddenTiles = needed.hidden;
-        f.visibleTiles = visible.size();
-        f.residentTiles = visits[i].residentTiles;
-        f.filesRequested = visits[i].files;
-        f.bytes = visits[i].bytes;
-        f.cullMs = times[i].warm.median;
-        f.cullSpreadMs = times[i].warm.spread;
-        f.cullColdMs = times[i].cold.median;
-        f.cullColdSpreadMs = times[i].cold.spread;
-        f.differingPixels = differingPixels(*reference.picture, *visits[i].picture);
-        countFalseVerdicts(f, visits[i].census, needed, visible);
+        const flight::Census& census = visits[i].census;
+        report::Json& row = rows.emplace_back(report::Json{{"truth_tiles", needed.keys.size()},
+                                                           {"hidden_tiles", needed.hidden},
+                                                           {"visible_tiles", visible.size()},
+                                                           {"nodes", census.nodes},
+                                                           {"tested_tiles", census.tested},
+                                                           {"kept_tiles", census.kept},
+                                                           {"drawn_tiles", census.tiles.size()},
+                                                           {"drawables", census.drawables},
+                                                           {"triangles", census.triangles},
+                                                           {"paged_lods", census.pagedLods},
+                                                           {"resident_tiles", visits[i].residentTiles},
+                                                           {"files_requested", visits[i].files},
+                                                           {"bytes", visits[i].bytes}});
+        addFalseVerdicts(row, census, needed, visible);
+        row["differing_pixels"] = report::compare(*reference.picture, *visits[i].picture).pixels;
+        row[kCullColumn] = times[i].warm.median;
+        row["cull_spread_ms"] = times[i].warm.spread;
+        row[kCullColdColumn] = times[i].cold.median;
+        row["cull_cold_spread_ms"] = times[i].cold.spread;
     }
-    return figures;
+    return rows;
 }
 
 void PoseBench::savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const {

@@ -54,7 +54,7 @@ private:
     void checkReplays(const std::vector<Visit>& visits, const std::string& pose) const;
     void learnBins(const flight::CameraPose& pose);
     [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(MethodScene& scene);
-    [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);
+    [[nodiscard]] std::vector<report::Json> measure(const flight::CameraPose& pose);
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
 
     const Settings& _settings;

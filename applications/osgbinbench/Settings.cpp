@@ -98,7 +98,7 @@ std::string footer() {
         "the\n"
         "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
-    return text + linesOf(kCountColumns) + linesOf(kTimeColumns) +
+    return text + linesOf(kPoseColumns) +
            "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
            linesOf(kFlightColumns) + "\nThe same with --draw, over three flights of each method but none:\n" +
            linesOf(kDrawnColumns) +

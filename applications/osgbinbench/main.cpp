@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Advice.h"
 #include "Compare.h"
 #include "ContinuousPath.h"
 #include "DefaultPath.h"
@@ -14,7 +13,7 @@
 #include "PoseBench.h"
 #include "ProgramRun.h"
 #include "Report.h"
-#include "ScaleCommand.h"
+#include "Series.h"
 #include "TextFile.h"
 
 #ifdef OSGANALYTICBIN_RESEARCH
@@ -81,10 +80,10 @@ std::string notePartial(std::size_t measured, std::size_t poses) {
     return text;
 }
 
-void tell(const Settings& settings, const std::vector<FlightFigures>& figures) {
-    write(settings, csvOf(figures), jsonOf(settings, figures));
+void tell(const Settings& settings, const std::vector<MethodFigures>& flights) {
+    write(settings, csvOf({}, flights), jsonOf(settings, {}, flights));
     (void)notePartial(0, 0);
-    print(std::cout, tablesOf(figures));
+    print(std::cout, tablesOf({}, flights));
 }
 
 // Of each path the first.
@@ -99,16 +98,16 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
     const std::size_t planned = path.size();
     PoseBench bench(settings, methods, watch);
     const auto figures = bench.run(path);
-    path.resize(figures.front().poses.size());
+    path.resize(figures.front().rows.size());
     const std::vector<std::string> poses = namesOf(path);
-    std::vector<FlightFigures> live;
+    std::vector<MethodFigures> live;
     if (settings.live > 0 && !stopRequested)
         live = flyContinuously(settings, methods, livePath(path, settings.live), watch);
     write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures, live));
     const std::string partial = notePartial(poses.size(), planned);
     HtmlReport report{settings.database, partial, adviceOf(poses, figures), tablesOf(poses, figures), {}, {}};
     if (!live.empty())
-        for (auto& table : tablesOf(live)) report.tables.push_back(std::move(table));
+        for (auto& table : tablesOf({}, live)) report.tables.push_back(std::move(table));
     print(std::cout, report.tables);
     for (const std::string& sentence : report.sentences)
         std::cout << (&sentence == &report.sentences.front() ? "\n" : "") << sentence << '\n';

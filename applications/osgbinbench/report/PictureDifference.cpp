@@ -3,12 +3,16 @@
 
 #include "PictureDifference.h"
 
+#include "Failure.h"
+
 #include <osgDB/ReadFile>
 
 #include <cstddef>
 #include <cstring>
 
 namespace osgAnalyticBin::report {
+
+using support::Failure;
 
 namespace {
 
@@ -19,9 +23,9 @@ std::string sizeOf(const osg::Image& image) {
     return std::to_string(image.s()) + "x" + std::to_string(image.t());
 }
 
-osg::ref_ptr<osg::Image> read(const std::string& file, std::string& error) {
+osg::ref_ptr<osg::Image> read(const std::string& file) {
     osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(file);
-    if (!image) error = file + ": cannot be read as a picture";
+    if (!image) throw Failure(file + ": cannot be read as a picture");
     return image;
 }
 
@@ -35,39 +39,31 @@ void paint(unsigned char* target, const unsigned char* source, std::size_t chann
 
 }  // namespace
 
-std::optional<PictureDifference> compareFiles(const std::string& first, const std::string& second, std::string& error) {
-    const osg::ref_ptr<osg::Image> a = read(first, error);
-    const osg::ref_ptr<osg::Image> b = a ? read(second, error) : nullptr;
-    if (!b) return std::nullopt;
-    auto difference = compare(*a, *b, error);
-    if (!difference) error = first + ", " + second + ": " + error;
-    return difference;
+PictureDifference compareFiles(const std::string& first, const std::string& second) {
+    const osg::ref_ptr<osg::Image> a = read(first), b = read(second);
+    try {
+        return compare(*a, *b);
+    } catch (const Failure& failure) {
+        throw Failure(first + ", " + second + ": " + failure.what());
+    }
 }
 
-std::optional<PictureDifference> compare(const osg::Image& first, const osg::Image& second, std::string& error) {
-    if (first.s() != second.s() || first.t() != second.t()) {
-        error = "sizes differ: " + sizeOf(first) + " and " + sizeOf(second);
-        return std::nullopt;
-    }
+PictureDifference compare(const osg::Image& first, const osg::Image& second) {
+    if (first.s() != second.s() || first.t() != second.t())
+        throw Failure("sizes differ: " + sizeOf(first) + " and " + sizeOf(second));
     if (first.getPixelFormat() != second.getPixelFormat() || first.getDataType() != GL_UNSIGNED_BYTE ||
-        second.getDataType() != GL_UNSIGNED_BYTE) {
-        error = "formats differ, or are not 8 bits per channel";
-        return std::nullopt;
-    }
+        second.getDataType() != GL_UNSIGNED_BYTE)
+        throw Failure("formats differ, or are not 8 bits per channel");
     PictureDifference difference;
     difference.picture = new osg::Image;
     difference.picture->allocateImage(first.s(), first.t(), 1, GL_RGB, GL_UNSIGNED_BYTE);
     const std::size_t channels = first.getPixelSizeInBits() / 8u;
-    for (int row = 0; row < first.t(); ++row) {
-        for (int column = 0; column < first.s(); ++column) {
-            const unsigned char* const a =
-                first.data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-            const unsigned char* const b =
-                second.data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-            const bool differs = std::memcmp(a, b, channels) != 0;
+    for (unsigned int row = 0; row < static_cast<unsigned int>(first.t()); ++row) {
+        for (unsigned int column = 0; column < static_cast<unsigned int>(first.s()); ++column) {
+            const unsigned char* const a = first.data(column, row);
+            const bool differs = std::memcmp(a, second.data(column, row), channels) != 0;
             if (differs) ++difference.pixels;
-            paint(difference.picture->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row)), a,
-                  channels, differs);
+            paint(difference.picture->data(column, row), a, channels, differs);
         }
     }
     return difference;

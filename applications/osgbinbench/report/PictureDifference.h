@@ -6,7 +6,6 @@
 #include <osg/Image>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 namespace osgAnalyticBin::report {
@@ -18,12 +17,10 @@ struct PictureDifference {
 };
 
 /// Compares two picture files pixel by pixel; any difference counts.
-/// Returns: nullopt, with one line in `error`, when a file cannot be read or the sizes or formats differ.
-[[nodiscard]] std::optional<PictureDifference> compareFiles(const std::string& first, const std::string& second,
-                                                            std::string& error);
+/// Throws: Failure when a file cannot be read or the sizes or formats differ.
+[[nodiscard]] PictureDifference compareFiles(const std::string& first, const std::string& second);
 
 /// The same for images with 8 bits per channel in memory.
-[[nodiscard]] std::optional<PictureDifference> compare(const osg::Image& first, const osg::Image& second,
-                                                       std::string& error);
+[[nodiscard]] PictureDifference compare(const osg::Image& first, const osg::Image& second);
 
 }  // namespace osgAnalyticBin::report

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ScaleCommand.h"
-
 #include "CommandLine.h"
 #include "Failure.h"
 #include "ModuleFolder.h"

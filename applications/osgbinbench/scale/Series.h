@@ -5,6 +5,7 @@
 
 #include "CullMethod.h"
 #include "Diagram.h"
+#include "ProgramRun.h"
 #include "Table.h"
 
 #include <string>
@@ -45,5 +46,9 @@ using Rows = std::vector<report::Json>;
 /// Depth (time for each drawn tile), flight (time of the whole flight), residents and memory; of a series without rows
 /// none.
 [[nodiscard]] std::vector<report::Diagram> diagramsOf(const Rows& depth, const Rows& residents, const Rows& memory);
+
+/// `osgbinbench scale`: measures how culling scales with depth and with tiles in memory.
+/// `argv[0]` is the name of the command. Returns: the exit code. Throws: Failure, UsageError.
+[[nodiscard]] support::ExitCode run(int argc, char** argv);
 
 }  // namespace osgAnalyticBin::scale

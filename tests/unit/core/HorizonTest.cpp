@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Oracles: the exact intersection of a line of sight with the occluder in long double, at sampled points of the bin and
-// at points made so that the line of sight just misses; relations. Ten million more trials: HullSoundness.cpp. Views as
-// in flight: Tightness.cpp.
+// at points made so that the line of sight just misses; relations. Ten million more trials: HullSoundness.cpp.
 
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 

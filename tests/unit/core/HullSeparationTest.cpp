@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The search for a parting plane. Oracle: hulls that libccd says meet or not. Bins with a point known to be inside
-// the frustum: Planets, and ten million trials of HullSoundness.cpp. Views as in flight: Tightness.cpp.
+// the frustum: Planets, and ten million trials of HullSoundness.cpp.
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The reverse test. Bins with a point known to be inside the frustum, by long double: HullSoundness.cpp. Views as in
-// flight: Tightness.cpp.
+// The reverse test. Bins with a point known to be inside the frustum, by long double: HullSoundness.cpp.
 
 #include "FrustumHull.h"
 

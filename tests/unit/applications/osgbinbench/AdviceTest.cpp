@@ -3,7 +3,8 @@
 //
 // The three sentences that osgbinbench ends with.
 
-#include "Advice.h"
+#include "EmptyRows.h"
+#include "Output.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +16,11 @@ using Sentences = std::vector<std::string>;
 const std::vector<std::string> kPoses{"far_1", "near_1"};
 
 MethodFigures figuresOf(const std::string& method, std::uint64_t far, std::uint64_t near, double farMs, double nearMs) {
-    MethodFigures figures{method, std::vector<Figures>(2)};
-    figures.poses[0].drawnTiles = figures.poses[0].filesRequested = far;
-    figures.poses[1].drawnTiles = figures.poses[1].filesRequested = near;
-    figures.poses[0].cullMs = farMs;
-    figures.poses[1].cullMs = nearMs;
+    MethodFigures figures{method, emptyRows(2)};
+    figures.rows[0]["drawn_tiles"] = figures.rows[0]["files_requested"] = far;
+    figures.rows[1]["drawn_tiles"] = figures.rows[1]["files_requested"] = near;
+    figures.rows[0]["cull_ms"] = farMs;
+    figures.rows[1]["cull_ms"] = nearMs;
     return figures;
 }
 
@@ -37,8 +38,8 @@ TEST(Advice, ComparesWithTheBetterOfTheOthersInEachFigure) {
 
 TEST(Advice, NamesTheTimeWithColdCachesWhereItWasMeasured) {
     std::vector<MethodFigures> methods{figuresOf("sphere", 30, 30, 1.0, 1.0), figuresOf("bins", 10, 10, 0.5, 0.5)};
-    methods[0].poses[0].cullColdMs = 4.0;
-    methods[1].poses[0].cullColdMs = 3.0;
+    methods[0].rows[0]["cull_cold_ms"] = 4.0;
+    methods[1].rows[0]["cull_cold_ms"] = 3.0;
     EXPECT_NE(adviceOf(kPoses, methods)[1].find("(0.50 times, and 0.75 times with cold caches)"), std::string::npos);
 }
 

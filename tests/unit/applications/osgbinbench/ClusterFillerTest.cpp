@@ -3,7 +3,6 @@
 //
 // Cluster culling callbacks made from the meshes of tiles. Oracle: the numbers worked out by hand for a tile on a ball.
 
-#include "ClusterFiller.h"
 #include "ClusterRemover.h"
 #include "PlacedMesh.h"
 

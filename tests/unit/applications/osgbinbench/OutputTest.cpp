@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EmptyRows.h"
 #include "Failure.h"
 #include "Output.h"
-#include "PathGroups.h"
 #include "TextFile.h"
 
 #include <gtest/gtest.h>
@@ -20,15 +20,15 @@ using support::Failure;
 using support::writeFile;
 
 std::vector<MethodFigures> twoMethods() {
-    std::vector<MethodFigures> methods{{"none", std::vector<Figures>(2)}, {"sphere", std::vector<Figures>(2)}};
-    methods[0].poses[0].drawnTiles = 6;
-    methods[0].poses[1].drawnTiles = 4;
-    methods[1].poses[0].drawnTiles = 5;
-    methods[1].poses[0].cullMs = 0.25;
-    methods[1].poses[1].cullMs = 0.5;
-    methods[0].poses[0].cullColdMs = 5.0;
-    methods[1].poses[0].cullColdMs = 1.0;
-    methods[1].poses[1].cullColdMs = 1.5;
+    std::vector<MethodFigures> methods{{"none", emptyRows(2)}, {"sphere", emptyRows(2)}};
+    methods[0].rows[0]["drawn_tiles"] = 6;
+    methods[0].rows[1]["drawn_tiles"] = 4;
+    methods[1].rows[0]["drawn_tiles"] = 5;
+    methods[1].rows[0]["cull_ms"] = 0.25;
+    methods[1].rows[1]["cull_ms"] = 0.5;
+    methods[0].rows[0]["cull_cold_ms"] = 5.0;
+    methods[1].rows[0]["cull_cold_ms"] = 1.0;
+    methods[1].rows[1]["cull_cold_ms"] = 1.5;
     return methods;
 }
 
@@ -86,7 +86,8 @@ TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
 }
 
 TEST(Output, JsonHoldsTheLiveFlightBesideTheSums) {
-    const FlightFigures flight{"sphere", {{"frames", 7}, {"files_requested", 5}, {"cull_ms", 2.0}}};
+    const report::Json row{{"frames", 7}, {"files_requested", 5}, {"cull_ms", 2.0}};
+    const MethodFigures flight{"sphere", {row}};
     const auto json = nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods(), {flight}));
     EXPECT_EQ(json["live"]["frames"], 7);
     EXPECT_EQ(json["live"]["methods"]["sphere"]["files_requested"], 5);
@@ -118,10 +119,10 @@ TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
     print(without, tablesOf({"down_1", "far_1"}, twoMethods()));
     EXPECT_EQ(without.str().find("over_oracle"), std::string::npos);
     std::vector<MethodFigures> methods = twoMethods();
-    methods.push_back({"oracle", std::vector<Figures>(2)});
-    methods[2].poses[0].cullMs = 0.125;
-    methods[2].poses[1].cullMs = 0.125;
-    methods[2].poses[0].cullColdMs = 1.0;
+    methods.push_back({"oracle", emptyRows(2)});
+    methods[2].rows[0]["cull_ms"] = 0.125;
+    methods[2].rows[1]["cull_ms"] = 0.125;
+    methods[2].rows[0]["cull_cold_ms"] = 1.0;
     std::ostringstream with;
     print(with, tablesOf({"down_1", "far_1"}, methods));
     EXPECT_NE(with.str().find("over_oracle        0.000   3.000   1.000"), std::string::npos) << with.str();

@@ -3,6 +3,7 @@
 //
 // Diagrams: what their data say, and that gnuplot draws them. Skipped where gnuplot is not installed.
 
+#include "EmptyRows.h"
 #include "Failure.h"
 #include "Output.h"
 
@@ -24,13 +25,13 @@ using support::Failure;
 const std::vector<std::string> kPoses{"down_1", "down_2", "far_1"};
 
 MethodFigures figuresOf(const std::string& method, std::uint64_t drawn, double cullMs) {
-    MethodFigures figures{method, std::vector<Figures>(kPoses.size())};
-    for (Figures& pose : figures.poses) {
-        pose.truthTiles = 4;
-        pose.drawnTiles = drawn;
-        pose.filesRequested = 3;
-        pose.cullMs = cullMs;
-        pose.cullSpreadMs = cullMs / 4.0;
+    MethodFigures figures{method, emptyRows(kPoses.size())};
+    for (report::Json& pose : figures.rows) {
+        pose["truth_tiles"] = 4;
+        pose["drawn_tiles"] = drawn;
+        pose["files_requested"] = 3;
+        pose["cull_ms"] = cullMs;
+        pose["cull_spread_ms"] = cullMs / 4.0;
     }
     return figures;
 }
@@ -95,7 +96,7 @@ TEST(Plot, DrawsEveryDiagramTwice) {
 TEST(Plot, DrawsPosesThatNothingIsCountedAt) {
     if (!hasGnuplot()) GTEST_SKIP() << "needs gnuplot";
     const test::TemporaryFolder folder;
-    EXPECT_NO_THROW(plot(folder.path(), diagramsOf({"a", "b"}, {{"sphere", std::vector<Figures>(2)}})));
+    EXPECT_NO_THROW(plot(folder.path(), diagramsOf({"a", "b"}, {{"sphere", emptyRows(2)}})));
 }
 
 TEST(Plot, KeepsDataAndScriptsWhereThereIsNoGnuplot) {

@@ -4,6 +4,7 @@
 // The program on a small paged globe, on a virtual display. Skipped where xvfb-run is not installed.
 
 #include "BenchProgram.h"
+#include "Figures.h"
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,9 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     ASSERT_EQ(first.size(), 4U);
     // pictures with bins in every threading model: tests/long/soak
     EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0 --threading CullThreadPerCameraDrawThreadPerContext")));
+    std::string columns = "pose,method";
+    for (const bench::Column& column : bench::kPoseColumns) columns += "," + std::string(column.name);
+    EXPECT_EQ(test::textOfFile(bench.folder / "first.csv").find(columns + "\n"), 0U) << "all that the help explains";
     // pose by pose too
     EXPECT_EQ(countsOf(bench.folder / "first.csv"), countsOf(bench.folder / "second.csv"));
 }

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "PathGroups.h"
+#include "MethodFigures.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 
 namespace osgAnalyticBin::report {
 
@@ -19,6 +21,26 @@ std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses) {
         group->poses.push_back(i);
     }
     return groups;
+}
+
+Json sumOf(const MethodFigures& method, const PathGroup& group) {
+    Json sum = method.rows[group.poses.front()];
+    for (std::size_t i = 1; i < group.poses.size(); ++i) {
+        for (const auto& [column, value] : method.rows[group.poses[i]].items()) {
+            Json& total = sum[column];
+            if (value.is_number_float())
+                total = total.get<double>() + value.get<double>();
+            else
+                total = total.get<std::uint64_t>() + value.get<std::uint64_t>();
+        }
+    }
+    return sum;
+}
+
+Json sumOf(const MethodFigures& method) {
+    PathGroup all{{}, std::vector<std::size_t>(method.rows.size())};
+    std::iota(all.poses.begin(), all.poses.end(), std::size_t{0});
+    return sumOf(method, all);
 }
 
 }  // namespace osgAnalyticBin::report
