@@ -3,7 +3,6 @@
 
 #include "CoveredPictureHandler.h"
 
-#include "IndexedGeometry.h"
 #include "TextPanel.h"
 #include "ViewTools.h"
 

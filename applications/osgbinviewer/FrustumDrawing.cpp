@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "IndexedGeometry.h"
 #include "ViewTools.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "Slab.h"
 
-#include "IndexedGeometry.h"
+#include "ViewTools.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>

@@ -4,6 +4,7 @@
 #include "Traffic.h"
 
 #include "CameraView.h"
+#include "TextPanel.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/Declarations.h>
@@ -14,6 +15,7 @@
 #include <osg/NodeCallback>
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
+#include <osgDB/DatabasePager>
 #include <osgUtil/IntersectionVisitor>
 #include <osgUtil/LineSegmentIntersector>
 
@@ -21,6 +23,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <string>
 
 namespace osgAnalyticBin::viewer {
 
@@ -39,6 +42,7 @@ private:
 namespace {
 
 constexpr double kHighest = 300.0;  // metres above ground
+constexpr double kFarthest = 30e3;  // metres, of models about the camera
 
 // An aircraft, some 30 m long, that flies to the north: a few hundred triangles.
 osg::ref_ptr<osg::Geode> makeAircraft() {
@@ -108,6 +112,33 @@ void Traffic::setAsking(bool asks) {
         if (asks) model.addCullCallback(new HiddenByTerrainCallback);
         model.addCullCallback(new Counter(*_drawn));
     }
+}
+
+TrafficHandler::TrafficHandler(osg::Group& scene, unsigned int count)
+    : _traffic(count), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {
+    scene.addChild(&_traffic.models());
+    addKey('T', "Scatter the models of --traffic about the camera.", [this](osgViewer::View&) { _isDue = true; });
+    addKey('G', "Let terrain hide the models of --traffic, or not.", [this](osgViewer::View&) {
+        _asks = !_asks;
+        _traffic.setAsking(_asks);
+    });
+}
+TrafficHandler::~TrafficHandler() = default;
+
+void TrafficHandler::draw(osgViewer::View& view, osg::Camera& camera) {
+    const osgDB::DatabasePager* const pager = view.getDatabasePager();
+    const bool isLoaded = !pager || !(pager->getRequestsInProgress() || pager->requiresUpdateSceneGraph());
+    const unsigned int drawn = _traffic.takeDrawn();
+    if (_isDue && isLoaded && view.getFrameStamp()->getFrameNumber() > 1) {
+        _traffic.models().removeChildren(0, _traffic.models().getNumChildren());
+        _traffic.scatter(*view.getSceneData(), osg::Vec3d() * camera.getInverseViewMatrix(), kFarthest);
+        _isDue = false;
+        return;
+    }
+    const unsigned int models = _traffic.models().getNumChildren();
+    const std::string text = std::to_string(drawn) + " of " + std::to_string(models) + " models drawn" +
+                             (_asks ? "" : ", whatever terrain hides");
+    _panel->show(camera, {{text, osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f)}});
 }
 
 }  // namespace osgAnalyticBin::viewer

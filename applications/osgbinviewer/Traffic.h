@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "KeyHandler.h"
+
 #include <osg/Group>
 #include <osg/Vec3d>
 #include <osg/ref_ptr>
@@ -10,6 +12,8 @@
 #include <atomic>
 
 namespace osgAnalyticBin::viewer {
+
+class TextPanel;
 
 /// Models that stand on terrain or fly up to 300 m above it, each with a HiddenByTerrainCallback.
 class Traffic {
@@ -40,6 +44,24 @@ private:
     const osg::ref_ptr<osg::Group> _models = new osg::Group;
     const osg::ref_ptr<Drawn> _drawn = new Drawn;
     bool _asks = true;
+};
+
+/// Scatters models about the camera once the terrain there is loaded, and says how many of them are drawn. Key `T`
+/// scatters them anew, `G` stops and starts that terrain hides them.
+class TrafficHandler : public KeyHandler {
+public:
+    /// Adds `count` models to the scene, behind all that is there.
+    TrafficHandler(osg::Group& scene, unsigned int count);
+
+protected:
+    ~TrafficHandler() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    Traffic _traffic;
+    bool _isDue = true;
+    bool _asks = true;
+    const osg::ref_ptr<TextPanel> _panel;
 };
 
 }  // namespace osgAnalyticBin::viewer

@@ -11,7 +11,7 @@
 #include "Settings.h"
 #include "SpyViewHandler.h"
 #include "Steps.h"
-#include "TrafficHandler.h"
+#include "Traffic.h"
 #include "ViewTools.h"
 #include "WithoutAnisotropy.h"
 

@@ -13,7 +13,7 @@
 #include "MethodSwitchHandler.h"
 #include "PathRecorder.h"
 #include "SpyViewHandler.h"
-#include "TrafficHandler.h"
+#include "Traffic.h"
 #include "ViewTools.h"
 #include "ViewerScene.h"
 

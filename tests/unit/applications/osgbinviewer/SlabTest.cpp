@@ -5,8 +5,8 @@
 // Slabs as they are drawn. Oracle: the mapping's inverse, point by point.
 
 #include "DrawnViewer.h"
-#include "IndexedGeometry.h"
 #include "Slab.h"
+#include "ViewTools.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
