@@ -142,7 +142,6 @@ public:
     void start() override;
     // Waits for the thread, which ends after the file that it reads.
     void stop();
-    [[nodiscard]] bool isWhole() const override { return _isWhole.load(std::memory_order_acquire); }
     [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const override {
         const std::lock_guard<std::mutex> guard(_mutex);
         return _whole;
@@ -150,7 +149,7 @@ public:
     bool waitUntilWhole(std::chrono::duration<double> most) const override {
         std::unique_lock<std::mutex> guard(_mutex);
         _changed.wait_for(guard, most, [this] { return _hasEnded; });
-        return isWhole();
+        return _whole.valid();
     }
     void noteRead(int change) override { _reads.fetch_add(change, std::memory_order_relaxed); }
     void showNotes() override;
@@ -191,7 +190,6 @@ private:
     std::thread _thread;
     std::mutex _threadMutex;  // of _thread
     std::atomic<bool> _isStopped{false};
-    std::atomic<bool> _isWhole{false};
     std::atomic<int> _reads{0};
     mutable std::mutex _mutex;  // guards what follows
     mutable std::condition_variable _changed;
@@ -290,7 +288,6 @@ osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
 void AutoIndex::publish(const osg::ref_ptr<const BinIndex>& index) {
     const std::lock_guard<std::mutex> guard(_mutex);
     _whole = index;
-    _isWhole.store(true, std::memory_order_release);
 }
 
 void AutoIndex::keep(const BinIndex& index) {

@@ -193,7 +193,7 @@ FAULTS = [
           "if (!layer->getValidValue(column, row, height)) return std::nullopt;", "(void)layer->getValidValue(column, row, height);",
           NODE, "OccludingTerrainTiles.*"),
     Fault("what was on its way takes no bins from an index", "src/kit/database/Database.cpp",
-          "_index = whole;\n    renewOnTheirWay();", "_index = whole;", NODE, "AutoIndex.*"),
+          "_index = whole;\n    beginGeneration();", "_index = whole;", NODE, "AutoIndex.*"),
     Fault("damaged indexes are read", "src/index/IndexFile.cpp",
           "if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};", "(void)in.number<std::uint32_t>();", NODE,
           "BinIndex*"),

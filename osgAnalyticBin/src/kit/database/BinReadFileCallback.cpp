@@ -112,7 +112,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     // before anything is asked of the database: what changes meanwhile is a later one
     const unsigned int generation = _database->generation();
     ReadResult result = readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options); });
-    if (result.validNode()) _database->noteRead(*result.getNode(), generation);
+    if (result.validNode()) _database->noteOnItsWay(*result.getNode(), generation, false);
     return result;
 }
 

@@ -22,34 +22,6 @@ namespace {
 
 constexpr std::size_t kMostToWiden = 65536;
 
-using Contents = std::vector<osg::observer_ptr<osg::Node>>;
-
-// Forgets what is in the scene or deleted. Calls `visit` for what is in the scene. Returns: whether there is any.
-template <class Visit>
-bool takeMerged(Contents& contents, const Visit& visit) {
-    bool found = false;
-    const auto isGone = [&](const osg::observer_ptr<osg::Node>& observed) {
-        osg::ref_ptr<osg::Node> node;
-        if (!observed.lock(node)) return true;
-        const bool isMerged = node->getNumParents() > 0;
-        if (isMerged) visit(*node);
-        found = found || isMerged;
-        return isMerged;
-    };
-    contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
-    return found;
-}
-
-bool takeMerged(Contents& contents) {
-    return takeMerged(contents, [](osg::Node&) {});
-}
-
-// A database that is not drawn never processes these lists.
-void keepFew(Contents& contents) {
-    constexpr std::size_t kMostOnTheirWay = 4096;
-    if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
-}
-
 // Of a mesh that has changed.
 void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, InstalledTile& installed) {
     const osg::ref_ptr<osg::Node> kept(&mesh);
@@ -85,7 +57,7 @@ void Database::setOptions(const CullOptions& options) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _options = options;
     _fittedShape = present;
-    renewOnTheirWay();
+    beginGeneration();
 }
 
 bool Database::replacesClusters() const {
@@ -93,12 +65,24 @@ bool Database::replacesClusters() const {
     return _options.cluster == ClusterUse::Replace && _options.method != Method::Sphere && !isMap();
 }
 
-// Requires: the lock.
-void Database::renewOnTheirWay() {
+// Requires: the lock. What is in the scene by now is not late: it is fitted again anyway.
+void Database::beginGeneration() {
+    takeMerged();
     ++_generation;
-    (void)takeMerged(_onTheirWay);
-    _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
-    _onTheirWay.clear();
+}
+
+// Forgets what is in the scene or deleted. Requires: the lock.
+void Database::takeMerged() {
+    const auto isGone = [this](const OnItsWay& content) {
+        osg::ref_ptr<osg::Node> node;
+        if (!content.node.lock(node)) return true;
+        if (node->getNumParents() == 0) return false;
+        if (content.generation != _generation) requestRefit();
+        if (!content.isAdded) return true;
+        for (osg::Group* const parent : node->getParents()) noteChanged(*parent);
+        return true;
+    };
+    _onTheirWay.erase(std::remove_if(_onTheirWay.begin(), _onTheirWay.end(), isGone), _onTheirWay.end());
 }
 
 void Database::setRemoved() {
@@ -131,7 +115,7 @@ void Database::adoptIndex() {
     const std::lock_guard<std::mutex> lock(_mutex);
     if (!whole || _index) return;
     _index = whole;
-    renewOnTheirWay();
+    beginGeneration();
     requestRefit();
 }
 
@@ -140,34 +124,27 @@ unsigned int Database::generation() const {
     return _generation;
 }
 
-void Database::noteRead(osg::Node& content, unsigned int generation) {
+void Database::noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
-    contents.emplace_back(&content);
-    keepFew(contents);
+    _onTheirWay.push_back({&content, generation, isAdded});
+    // a database that is not drawn never processes the list
+    constexpr std::size_t kMost = 4096;
+    if (_onTheirWay.size() > kMost) _onTheirWay.erase(_onTheirWay.begin(), _onTheirWay.begin() + kMost / 2);
 }
 
-void Database::noteAdded(osg::Node& tile, unsigned int generation) {
-    noteRead(tile, generation);
-    const std::lock_guard<std::mutex> lock(_mutex);
-    _added.emplace_back(&tile);
-    keepFew(_added);
-}
-
-void Database::findLateComers() {
+void Database::findMerged() {
     constexpr std::size_t kMany = 64;
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (_onTheirWay.size() > kMany) (void)takeMerged(_onTheirWay);
-    if (!_lateComers.empty() && takeMerged(_lateComers)) requestRefit();
-    (void)takeMerged(_added, [this](osg::Node& tile) {
-        for (osg::Group* const parent : tile.getParents()) noteChanged(*parent);
-    });
+    const auto isAwaited = [this](const OnItsWay& content) {
+        return content.isAdded || content.generation != _generation;
+    };
+    if (_onTheirWay.size() > kMany || std::any_of(_onTheirWay.begin(), _onTheirWay.end(), isAwaited)) takeMerged();
 }
 
 bool Database::needsUpdate() {
-    findLateComers();
+    findMerged();
     const osg::ref_ptr<TileBoundsSource> making = this->making();
-    return isUpdateWanted() || (making && making->isWhole() && !index()) || !(shape(options()) == fittedShape());
+    return isUpdateWanted() || (making && !index() && making->whole()) || !(shape(options()) == fittedShape());
 }
 
 TerrainShape Database::shape(const CullOptions& options) const {
@@ -300,7 +277,7 @@ void Database::renewFamilies() {
 
 void Database::update() {
     beginUpdate();
-    findLateComers();
+    findMerged();
     renewFamilies();
     makePlates();
     adoptIndex();

@@ -82,12 +82,10 @@ public:
     /// Call when bins are removed: files that are read from now on get none.
     void setRemoved();
 
-    /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
-    void noteRead(osg::Node& content, unsigned int generation);
-
-    /// The same of a tile that the application attaches itself. When it is in the scene, the next update has the groups
-    /// that it was attached to test it with its siblings.
-    void noteAdded(osg::Node& tile, unsigned int generation);
+    /// Records content that is not merged into the scene yet, with bins by the options and the index of `generation`.
+    /// `isAdded`: the application attaches it itself. When that is done, the next update has the groups that it was
+    /// attached to test it with its siblings.
+    void noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded);
 
     /// Null: there is none, or none yet.
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
@@ -156,12 +154,18 @@ protected:
 
 private:
     using TileKey = std::pair<std::string, std::size_t>;
+    struct OnItsWay {
+        osg::observer_ptr<osg::Node> node;
+        unsigned int generation;
+        bool isAdded;
+    };
 
     [[nodiscard]] static constexpr unsigned int bitOf(Finding finding) { return 1u << static_cast<unsigned>(finding); }
     void correct(const InstalledTile& tile, const Widening& by);
     void adoptIndex();
-    void renewOnTheirWay();
-    void findLateComers();
+    void beginGeneration();
+    void takeMerged();
+    void findMerged();
     void makePlates();
     void renewFamilies();
 
@@ -177,9 +181,7 @@ private:
     std::optional<core::CoveredRegion> _region;
     TerrainShape _fittedShape;
     unsigned int _generation = 0;
-    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
-    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
-    std::vector<osg::observer_ptr<osg::Node>> _added;       // by the application, not attached yet
+    std::vector<OnItsWay> _onTheirWay;
     std::map<TileKey, Widening> _corrections;
     std::vector<osg::observer_ptr<InstalledTile>> _toWiden;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;

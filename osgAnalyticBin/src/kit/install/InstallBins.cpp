@@ -123,7 +123,7 @@ std::size_t addTile(osg::Node& database, osg::Node& tile, const osg::Matrixd& pa
     // only the application knows what lies between its tiles
     attached->report(Finding::Gap, frame.file);
     const std::size_t installed = attached->install(tile, frame, nullptr);
-    attached->noteAdded(tile, generation);
+    attached->noteOnItsWay(tile, generation, true);
     return installed;
 }
 
@@ -131,7 +131,7 @@ bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
     forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
         const osg::ref_ptr<TileBoundsSource> index = database.making();
-        isAwaited = isAwaited || (index && !index->isWhole());
+        isAwaited = isAwaited || (index && !index->whole());
     });
     return isAwaited;
 }

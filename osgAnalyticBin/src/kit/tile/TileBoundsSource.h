@@ -25,9 +25,7 @@ class TileBoundsSource : public osg::Referenced {
 public:
     virtual void start() = 0;
 
-    /// Whether the bins are complete.
-    [[nodiscard]] virtual bool isWhole() const = 0;
-    /// Returns: null until they are complete.
+    /// Returns: null until the bins are complete.
     [[nodiscard]] virtual osg::ref_ptr<const BinIndex> whole() const = 0;
     /// Waits until they are complete or cannot be found. Returns: whether they are complete.
     virtual bool waitUntilWhole(std::chrono::duration<double> most) const = 0;
