@@ -56,6 +56,10 @@ ReadResult readCarefully(const std::string& fileName, FailedReads& failures, con
     return result;
 }
 
+BinReadFileCallback* readCallbackIn(const osgDB::Options& options) {
+    return dynamic_cast<BinReadFileCallback*>(options.getReadFileCallback());
+}
+
 // A file that a PagedLOD requests from the DatabasePager.
 struct PagedFile {
     std::string name;  // as the pager asks for it
@@ -154,28 +158,21 @@ void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& d
     if (!replacing.callback || isTaken) {
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
         replacing.options = base ? base->cloneOptions() : new osgDB::Options;
-        replacing.callback = new BinReadFileCallback(&database, frame, previousCallback(*replacing.options));
-        replacing.callback->setReplaced(optionsWithoutBins(own.get()));
+        // an earlier installer's
+        BinReadFileCallback* const earlier = readCallbackIn(*replacing.options);
+        osgDB::ReadFileCallback* const previous =
+            earlier ? earlier->previous() : replacing.options->getReadFileCallback();
+        replacing.callback = new BinReadFileCallback(&database, frame, previous);
+        replacing.callback->setReplaced(own && earlier ? earlier->replaced() : own.get());
         replacing.options->setReadFileCallback(replacing.callback);
     }
     for (const PagedFile& file : files) replacing.callback->expect(file.name, file.frame, parent);
     node.setDatabaseOptions(replacing.options.get());
 }
 
-osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
-    osgDB::ReadFileCallback* callback = options.getReadFileCallback();
-    auto* ours = dynamic_cast<BinReadFileCallback*>(callback);
-    return ours ? ours->previous() : callback;
-}
-
 BinReadFileCallback* readCallbackOf(osg::PagedLOD& node) {
     const auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    return options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
-}
-
-osgDB::Options* optionsWithoutBins(osgDB::Options* options) {
-    auto* const ours = options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
-    return ours ? ours->replaced() : options;
+    return options ? readCallbackIn(*options) : nullptr;
 }
 
 osg::ref_ptr<Database> databaseOf(osg::Node& node) {

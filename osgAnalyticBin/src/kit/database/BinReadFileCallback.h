@@ -86,14 +86,8 @@ private:
     std::map<osg::ref_ptr<osgDB::Options>, Replacing> _replacing;
 };
 
-/// The read callback in the options; where that is one of ours, the one behind it. May be null.
-[[nodiscard]] osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options);
-
 /// The read callback of ours that a PagedLOD's options have; null: none.
 [[nodiscard]] BinReadFileCallback* readCallbackOf(osg::PagedLOD& node);
-
-/// Options as they were before an installer replaced them. Both may be null.
-[[nodiscard]] osgDB::Options* optionsWithoutBins(osgDB::Options* options);
 
 /// The database that the node carries, or that the files paged below it belong to. Null where no installer ran.
 [[nodiscard]] osg::ref_ptr<Database> databaseOf(osg::Node& node);

@@ -12,7 +12,6 @@
 #include "../cull/TileFamily.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
-#include "../database/PagingExpiry.h"
 #include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
 #include "../tile/EachNode.h"
@@ -380,7 +379,10 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
                              database().correction(tile.frame.file, tile.ordinal),
                              hasNewContent};
     const TileFit fit = fitTile(tile, sources, shape);
-    const osg::ref_ptr<InstalledTile> installed = recordOf(tile, fit);
+    const osg::ref_ptr<InstalledTile> installed =
+        new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
+    installed->extents = fit.extents;
+    installed->stored = fit.stored;
     for (const auto& [finding, drawn] : fit.findings) Database::report(*installed, finding, drawn);
     if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
 
@@ -414,14 +416,6 @@ void BinInstaller::noteCover(const FoundTile& tile, const FitSources& sources, c
     if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
 }
 
-osg::ref_ptr<InstalledTile> BinInstaller::recordOf(const FoundTile& tile, const TileFit& fit) {
-    const osg::ref_ptr<InstalledTile> record =
-        new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
-    record->extents = fit.extents;
-    record->stored = fit.stored;
-    return record;
-}
-
 bool BinInstaller::isBelowStored() const {
     return _parent && _parent->stored.valid();
 }
@@ -451,11 +445,9 @@ void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
 }
 
 void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed) {
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
-        raiseExpiry(*paged, _options.expiry);
-        _paging.follow(*paged, frame(), database(), &installed, true);
-    }
-    const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(tile.node.get());
+    if (paged) _paging.follow(*paged, frame(), database(), &installed, true);
+    const Scoped inMesh(_isInMesh, !paged);
     const Scoped below(_parent, osg::ref_ptr<InstalledTile>(&installed));
     traverseBelow(*tile.node);
 }

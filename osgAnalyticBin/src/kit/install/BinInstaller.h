@@ -92,7 +92,6 @@ private:
     void visitWithoutBin(osg::Node& node, bool isTile);
     void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
-    [[nodiscard]] osg::ref_ptr<InstalledTile> recordOf(const FoundTile& tile, const TileFit& fit);
     void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed);
     void noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit, InstalledTile& installed);
     void noteDrawn(const FoundTile& tile, InstalledTile& installed);

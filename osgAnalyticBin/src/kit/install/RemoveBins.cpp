@@ -18,19 +18,19 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Files below a PagedLOD are read without bins from now on.
-void detachReads(osg::Node& node) {
+// Files below a PagedLOD are read without bins from now on. Returns: the database that they belonged to; may be null.
+osg::ref_ptr<Database> detachReads(osg::Node& node) {
     auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
     BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr;
-    if (callback) paged->setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+    if (!callback) return nullptr;
+    osg::ref_ptr<Database> database = callback->database();
+    paged->setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+    return database;
 }
 
 void detach(osg::Node& node) {
     removeDatabase(node);
-    auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
-    BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr;
-    if (callback) callback->database()->setRemoved();
-    detachReads(node);
+    if (const osg::ref_ptr<Database> database = detachReads(node)) database->setRemoved();
 }
 
 void remove(Carrier& carrier) {

@@ -5,9 +5,9 @@
 
 #include "../CallbackChain.h"
 #include "../Inverse.h"
+#include "../PagedChildren.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
-#include "../database/PagingExpiry.h"
 #include "../tile/Carrier.h"
 #include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
@@ -22,6 +22,7 @@
 #include <osg/PagedLOD>
 #include <osg/Transform>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -37,11 +38,23 @@ std::vector<osg::ref_ptr<AnalyticBinCullCallback>> installedCallbacks(const osg:
     return callbacks;
 }
 
+// How long a tile's paged children stay after they were last in view, where nobody has set a time: OSG's own is 0. A
+// number that nobody else sets.
+double expiryOf(const AnalyticBinCullCallback& callback) {
+    return std::nextafter(callback.getCullOptions().expiry, HUGE_VAL);
+}
+
+void replaceExpiry(osg::Node& node, double replaced, double seconds) {
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+    for (unsigned int i = 0; paged && i < paged->getNumMinimumExpiryTimes(); ++i) {
+        if (isPaged(*paged, i) && paged->getMinimumExpiryTime(i) == replaced) paged->setMinimumExpiryTime(i, seconds);
+    }
+}
+
 void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& ours, NestedCallbacks& nested) {
     const bool isNested = culled.getCullCallback() != &ours;
     if (isNested && !nested.emplace(&culled, &ours).second) return;
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
-        restoreExpiry(*paged, ours.getCullOptions().expiry);
+    replaceExpiry(*tile.node, expiryOf(ours), 0.0);
     if (!isNested) takeOff(culled, ours);
     InstalledTile* const installed = ours.getInstalledTile();
     if (installed) installed->leaveFamily();
@@ -114,6 +127,7 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     callback.setInstalledTile(&record);
     // In front: what is nested runs when the tile is kept.
     putInFront(culled, callback);
+    if (callback.getCullOptions().expiry > 0.0) replaceExpiry(*tile.node, 0.0, expiryOf(callback));
     const bool isCarried = &culled != tile.node;
     if (isCarried) ContentWatch::place(culled, {}, record.parent, &record);
     ContentWatch::place(*tile.node, tile.meshes, isCarried ? &record : record.parent.get(), &record);
