@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -19,8 +18,6 @@ constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr double kAngleTolerance = 2e-15;
 // Doubles of this size are 1e-10 radians apart, a millimetre on the earth.
 constexpr double kFarthestLongitude = 1e6;
-
-constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 bool isProper(const Interval& interval) {
     return std::isfinite(interval.lower) && std::isfinite(interval.upper) && interval.lower <= interval.upper;
@@ -63,15 +60,11 @@ bool holdsLongitudes(const Interval& outer, const Interval& inner) {
     return offset + inner.width() <= outer.width() + tolerance;
 }
 
-Interval hullOf(const Interval& a, const Interval& b) {
-    return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
-}
-
 Interval longitudeHull(const Interval& a, const Interval& b) {
     if (a.contains(b)) return a;
     if (b.contains(a)) return b;
-    const Interval bAfterA = hullOf(a, turnedToStartAfter(b, a.lower));
-    const Interval aAfterB = hullOf(b, turnedToStartAfter(a, b.lower));
+    const Interval bAfterA = a.united(turnedToStartAfter(b, a.lower));
+    const Interval aAfterB = b.united(turnedToStartAfter(a, b.lower));
     const Interval& shorter = bAfterA.width() <= aAfterB.width() ? bAfterA : aAfterB;
     return shorter.width() >= kTwoPi ? Interval{-kPi, kPi} : shorter;
 }
@@ -79,7 +72,7 @@ Interval longitudeHull(const Interval& a, const Interval& b) {
 }  // namespace
 
 GeodeticBin::GeodeticBin() noexcept
-    : _latitude(kEmptyInterval), _longitude(kEmptyInterval), _altitude(kEmptyInterval) {}
+    : _latitude(Interval::none()), _longitude(Interval::none()), _altitude(Interval::none()) {}
 
 GeodeticBin::GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept : GeodeticBin() {
     if (!isProper(latitude) || !isProper(longitude) || !isProper(altitude)) return;
@@ -123,9 +116,9 @@ GeodeticBin GeodeticBin::united(const GeodeticBin& other) const noexcept {
     if (other.empty()) return *this;
     if (empty()) return other;
     GeodeticBin result;
-    result._latitude = hullOf(_latitude, other._latitude);
+    result._latitude = _latitude.united(other._latitude);
     result._longitude = longitudeHull(_longitude, other._longitude);
-    result._altitude = hullOf(_altitude, other._altitude);
+    result._altitude = _altitude.united(other._altitude);
     return result;
 }
 

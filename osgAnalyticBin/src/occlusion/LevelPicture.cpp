@@ -55,13 +55,12 @@ core::Frame LevelView::frameAt(const glm::dvec3& place) const {
 }
 
 std::optional<PictureSpan> PictureSpan::of(const LevelView& view, const core::Frame& frame) {
-    PictureSpan span{{HUGE_VAL, -HUGE_VAL}, 0.0, 0.0};
+    PictureSpan span{core::Interval::none(), 0.0, 0.0};
     double levelness = 1.0;
     for (const glm::dvec3& corner : view.corners) {
         const double ahead = glm::dot(corner, frame.y), length = glm::length(corner);
         if (!(ahead > kLevel * length)) return std::nullopt;
-        const double x = glm::dot(corner, frame.x) / ahead;
-        span.across = {std::min(span.across.lower, x), std::max(span.across.upper, x)};
+        span.across.expandBy(glm::dot(corner, frame.x) / ahead);
         levelness = std::min(levelness, ahead / length);
         span.depthStep = std::max(span.depthStep, view.depthStep / ahead);
     }

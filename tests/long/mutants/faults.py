@@ -85,7 +85,7 @@ FAULTS = [
     Fault("sign of a second derivative", "src/core/bin/GeodeticMapping.cpp", "- (m + h) * frame.up;  // f_pp",
           "+ (m + h) * frame.up;", CORE, "GeodeticMapping*:*QuadraticBin*"),
     Fault("no extremum inside the cube", "src/core/bin/QuadraticRange.cpp",
-          "acceptOntoBox(v) && acceptOntoBox(w)) include(range, q(u, v, w))",
+          "acceptOntoBox(v) && acceptOntoBox(w)) range.expandBy(q(u, v, w))",
           "acceptOntoBox(v) && acceptOntoBox(w)) range.lower = range.lower", CORE, "QuadraticRange*"),
     Fault("sign of the extremum on an edge", "src/core/bin/QuadraticRange.cpp", "q.a - 0.5 * q.b", "q.a + 0.5 * q.b", CORE,
           "QuadraticRange*"),

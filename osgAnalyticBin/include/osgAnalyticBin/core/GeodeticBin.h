@@ -5,7 +5,9 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -15,6 +17,11 @@ struct Interval {
     double lower = 0.0;
     /// The upper end.
     double upper = 0.0;
+
+    /// Of no number.
+    [[nodiscard]] static constexpr Interval none() noexcept {
+        return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    }
 
     /// Negative when empty.
     [[nodiscard]] double width() const noexcept { return upper - lower; }
@@ -28,8 +35,14 @@ struct Interval {
     }
     /// How much of it both have in common; negative: how far they are apart. Requires: neither is empty.
     [[nodiscard]] double overlap(const Interval& other) const noexcept {
-        return (upper < other.upper ? upper : other.upper) - (lower > other.lower ? lower : other.lower);
+        return std::min(upper, other.upper) - std::max(lower, other.lower);
     }
+    /// The smallest interval that holds both.
+    [[nodiscard]] Interval united(const Interval& other) const noexcept {
+        return {std::min(lower, other.lower), std::max(upper, other.upper)};
+    }
+    /// NaN changes nothing.
+    void expandBy(double value) noexcept { *this = united({value, value}); }
     /// Whether both ends are the same numbers.
     [[nodiscard]] bool operator==(const Interval& other) const noexcept {
         return lower == other.lower && upper == other.upper;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../Constants.h"
 #include "../LocalFrame.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -14,7 +15,6 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
 // The bounds below are sums and products of some twenty rounded terms.
 constexpr double kRoundUp = 1.0 + 1e-13;
 

@@ -31,20 +31,11 @@ struct Quadratic2 {
     Quadratic1 atV(double v) const { return {a + bv * v + 0.5 * cvv * v * v, bu + cuv * v, cuu}; }
 };
 
-void include(Interval& range, double value) {
-    range.lower = std::min(range.lower, value);
-    range.upper = std::max(range.upper, value);
-}
-
-Interval hullOf(const Interval& a, const Interval& b) {
-    return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
-}
-
 Interval rangeOf(const Quadratic1& q) {
     const double middle = q.a + 0.5 * q.c;
     Interval range{middle - std::abs(q.b), middle + std::abs(q.b)};
     // stationary at x = -b/c, value a - b2/(2c); within the interval when |b| < |c|
-    if (std::abs(q.b) < std::abs(q.c)) include(range, q.a - 0.5 * q.b * (q.b / q.c));
+    if (std::abs(q.b) < std::abs(q.c)) range.expandBy(q.a - 0.5 * q.b * (q.b / q.c));
     return range;
 }
 
@@ -74,12 +65,12 @@ bool definiteStationary(double cuu, double cvv, double cuv, double bu, double bv
 }
 
 Interval rangeOf(const Quadratic2& q) {
-    Interval range =
-        hullOf(hullOf(rangeOf(q.atU(-1.0)), rangeOf(q.atU(1.0))), hullOf(rangeOf(q.atV(-1.0)), rangeOf(q.atV(1.0))));
+    Interval range = rangeOf(q.atU(-1.0)).united(rangeOf(q.atU(1.0)));
+    range = range.united(rangeOf(q.atV(-1.0))).united(rangeOf(q.atV(1.0)));
     double u = 0.0;
     double v = 0.0;
     if (definiteStationary(q.cuu, q.cvv, q.cuv, q.bu, q.bv, u, v) && acceptOntoBox(u) && acceptOntoBox(v)) {
-        include(range, q(u, v));
+        range.expandBy(q(u, v));
     }
     return range;
 }
@@ -90,28 +81,27 @@ Quadratic2 atU(const Quadratic& q, double u) {
     return {q.value + g[0] * u + 0.5 * h[kUU] * u * u, g[1] + h[kUV] * u, g[2] + h[kUW] * u, h[kVV], h[kWW], h[kVW]};
 }
 
-Quadratic2 atV(const Quadratic& q, double v) {
+// q with its parameters renamed so that one of them comes first and the others keep their order.
+Quadratic withFirst(std::size_t first, const Quadratic& q) {
     const auto& g = q.gradient;
     const auto& h = q.hessian;
-    return {q.value + g[1] * v + 0.5 * h[kVV] * v * v, g[0] + h[kUV] * v, g[2] + h[kVW] * v, h[kUU], h[kWW], h[kUW]};
+    if (first == 0) return q;
+    if (first == 1) return {q.value, {g[1], g[0], g[2]}, {h[kVV], h[kUU], h[kWW], h[kUV], h[kVW], h[kUW]}};
+    return {q.value, {g[2], g[0], g[1]}, {h[kWW], h[kUU], h[kVV], h[kUW], h[kVW], h[kUV]}};
 }
 
-Quadratic2 atW(const Quadratic& q, double w) {
-    const auto& g = q.gradient;
-    const auto& h = q.hessian;
-    return {q.value + g[2] * w + 0.5 * h[kWW] * w * w, g[0] + h[kUW] * w, g[1] + h[kVW] * w, h[kUU], h[kVV], h[kUV]};
+// Over the two faces at the ends of a parameter.
+Interval rangeOfFaces(std::size_t parameter, const Quadratic& given) {
+    const Quadratic q = withFirst(parameter, given);
+    return rangeOf(atU(q, -1.0)).united(rangeOf(atU(q, 1.0)));
 }
 
-// q with its parameters renamed so that the largest square comes first: the pivot of the elimination.
+// The largest square comes first: the pivot of the elimination.
 Quadratic largestSquareFirst(const Quadratic& q) {
-    const auto& g = q.gradient;
     const auto& h = q.hessian;
-    const double uu = std::abs(h[kUU]);
-    const double vv = std::abs(h[kVV]);
-    const double ww = std::abs(h[kWW]);
-    if (uu >= vv && uu >= ww) return q;
-    if (vv >= ww) return {q.value, {g[1], g[0], g[2]}, {h[kVV], h[kUU], h[kWW], h[kUV], h[kVW], h[kUW]}};
-    return {q.value, {g[2], g[1], g[0]}, {h[kWW], h[kVV], h[kUU], h[kVW], h[kUW], h[kUV]}};
+    const auto isSmaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const auto largest = std::max_element(h.begin(), h.begin() + 3, isSmaller);
+    return withFirst(static_cast<std::size_t>(largest - h.begin()), q);
 }
 
 // The stationary point of the whole cube, when it is an extremum.
@@ -130,7 +120,7 @@ void includeInterior(const Quadratic& given, Interval& range) {
     double w = 0.0;
     if (!definiteStationary(cvv, cww, cvw, g[1] - fv * g[0], g[2] - fw * g[0], v, w)) return;
     double u = -(g[0] + h[kUV] * v + h[kUW] * w) / h[kUU];
-    if (acceptOntoBox(u) && acceptOntoBox(v) && acceptOntoBox(w)) include(range, q(u, v, w));
+    if (acceptOntoBox(u) && acceptOntoBox(v) && acceptOntoBox(w)) range.expandBy(q(u, v, w));
 }
 
 }  // namespace
@@ -142,11 +132,10 @@ double Quadratic::operator()(double u, double v, double w) const noexcept {
 }
 
 Interval exactRange(const Quadratic& q) noexcept {
-    Interval range = hullOf(rangeOf(atW(q, -1.0)), rangeOf(atW(q, 1.0)));
+    Interval range = rangeOfFaces(2, q);
     // For given u and v, q without a square of w is linear in w: its extrema are on the two faces done.
     if (q.hessian[kWW] == 0.0) return range;
-    range = hullOf(range, hullOf(rangeOf(atU(q, -1.0)), rangeOf(atU(q, 1.0))));
-    range = hullOf(range, hullOf(rangeOf(atV(q, -1.0)), rangeOf(atV(q, 1.0))));
+    range = range.united(rangeOfFaces(0, q)).united(rangeOfFaces(1, q));
     includeInterior(q, range);
     return range;
 }

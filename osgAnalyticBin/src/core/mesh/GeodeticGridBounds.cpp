@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../Constants.h"
 #include "../EarthScale.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
@@ -14,7 +15,6 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
 [[maybe_unused]] constexpr double kMaxCell = 1.0472;
 // Sines are taken for angles in the bound of the poleward run, and the last bits of its own evaluation are covered.
 constexpr double kRunSlack = 1.01;

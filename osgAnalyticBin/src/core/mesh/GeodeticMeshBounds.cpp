@@ -10,21 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
 double wrapped(double angle) {
     return std::remainder(angle, 2.0 * kPi);
-}
-
-void include(Interval& range, double value) {
-    range.lower = std::min(range.lower, value);
-    range.upper = std::max(range.upper, value);
 }
 
 }  // namespace
@@ -35,18 +27,18 @@ GeodeticMeshBounds::GeodeticMeshBounds(const Ellipsoid& ellipsoid, double refere
       _referenceLongitude(referenceLongitude),
       _reference(std::cos(referenceLongitude), std::sin(referenceLongitude), 0.0),
       _axisTolerance(axisTolerance),
-      _latitude(kEmptyInterval),
-      _relativeLongitude(kEmptyInterval),
-      _altitude(kEmptyInterval),
+      _latitude(Interval::none()),
+      _relativeLongitude(Interval::none()),
+      _altitude(Interval::none()),
       _northCone(ellipsoid, 0.0),
       _southCone(ellipsoid, 0.0) {}
 
 void GeodeticMeshBounds::expandByVertex(const glm::dvec3& ecef) noexcept {
     const Geodetic position = _ellipsoid.toGeodetic(ecef);
-    include(_latitude, position.latitude);
-    include(_altitude, position.altitude);
+    _latitude.expandBy(position.latitude);
+    _altitude.expandBy(position.altitude);
     if (_ellipsoid.isPlane() || std::hypot(ecef.x, ecef.y) > _axisTolerance) {
-        include(_relativeLongitude, wrapped(position.longitude - _referenceLongitude));
+        _relativeLongitude.expandBy(wrapped(position.longitude - _referenceLongitude));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../Constants.h"
 #include "../EarthScale.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -14,7 +15,6 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where the closed forms of altitude hold, as derived: |a2/b2 - 1|.

@@ -166,13 +166,11 @@ private:
     void expandBy(const std::vector<std::uint32_t>& vertices) {
         // farther than float vertices of large tiles are rounded
         constexpr double kAtPole = 2e-6;
-        _latitude = {kPi, -kPi};
-        _longitudes = {1e9, -1e9};
+        _latitude = _longitudes = Interval::none();
         for (const std::uint32_t vertex : vertices) {
             const Geodetic& place = placeOf(vertex);
-            _latitude = {std::min(_latitude.lower, place.latitude), std::max(_latitude.upper, place.latitude)};
-            if (isAtPole(place, kAtPole)) continue;
-            _longitudes = {std::min(_longitudes.lower, place.longitude), std::max(_longitudes.upper, place.longitude)};
+            _latitude.expandBy(place.latitude);
+            if (!isAtPole(place, kAtPole)) _longitudes.expandBy(place.longitude);
         }
     }
     // Of a surface around much of the globe: it lies beside its widest gap in longitude. Where no gap is much wider

@@ -310,9 +310,9 @@ void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::ar
                           double margin) noexcept {
     // more than the error of altitudes
     const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
-    Interval known{kInfinity, -kInfinity};
+    Interval known = Interval::none();
     for (const double bound : low) {
-        if (std::isfinite(bound)) known = {std::min(known.lower, bound - room), std::max(known.upper, bound)};
+        if (std::isfinite(bound)) known = known.united({bound - room, bound});
     }
     for (const double bound : high) {
         if (std::isfinite(bound)) known.upper = std::max(known.upper, bound + room);
