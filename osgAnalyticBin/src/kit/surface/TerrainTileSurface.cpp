@@ -107,27 +107,14 @@ HeightRange rangeOfAll(const float* values, std::size_t columns, std::size_t row
     return range;
 }
 
-// Cost: one pass over the floats, or as many virtual calls where a ValidDataOperator of unknown kind picks them.
-HeightRange heightRange(const osgTerrain::Layer& layer, const osg::HeightField& field) {
-    const std::size_t columns = field.getNumColumns();
-    const std::size_t rows = field.getNumRows();
-    if (columns == 0 || rows == 0) return {};
-    const float* values = field.getFloatArray()->asVector().data();
-    const osgTerrain::ValidDataOperator* isValid = layer.getValidDataOperator();
-    if (!isValid) return rangeOfAll(values, columns, rows);
-
+// Cost: one pass over the floats, or as many virtual calls where the layer is of another class or picks its posts.
+HeightRange heightRange(const osgTerrain::Layer& layer, const osg::HeightField* field) {
+    const std::size_t columns = layer.getNumColumns(), rows = layer.getNumRows();
+    if (field && columns > 0 && rows > 0 && !layer.getValidDataOperator())
+        return rangeOfAll(field->getFloatArray()->asVector().data(), columns, rows);
     HeightRange range;
-    for (std::size_t i = 0; i < columns * rows; ++i)
-        if ((*isValid)(values[i])) include(range, values[i]);
-    range.edgeLow.fill(range.low);
-    return range;
-}
-
-// Of any layer, by its virtual functions.
-HeightRange heightRange(const osgTerrain::Layer& layer) {
-    HeightRange range;
-    for (unsigned int row = 0; row < layer.getNumRows(); ++row) {
-        for (unsigned int column = 0; column < layer.getNumColumns(); ++column) {
+    for (unsigned int row = 0; row < rows; ++row) {
+        for (unsigned int column = 0; column < columns; ++column) {
             float value = 0.0f;
             if (layer.getValidValue(column, row, value)) include(range, value);
         }
@@ -274,8 +261,7 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     const std::optional<TileSource> source = sourceOf(tile, ellipsoid);
     if (!source || !(sampleRatio >= 0.0)) return {};
     auto [grid, layer, field] = *source;
-    const HeightRange heights =
-        layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
+    const HeightRange heights = layer ? heightRange(*layer, field) : HeightRange::flat();
     const core::Ellipsoid model = toCore(ellipsoid);
     const double most = highestTerrain(model);
     if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -most || heights.high > most) return {};
