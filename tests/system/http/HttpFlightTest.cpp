@@ -19,7 +19,6 @@
 namespace osgAnalyticBin {
 namespace {
 
-using report::Report;
 using test::Nginx;
 
 constexpr const char* kPath =
@@ -64,12 +63,9 @@ protected:
     }
 
     static void expectEqualPictures(const std::vector<std::string>& flights) {
-        std::string error;
         std::vector<std::string> folders{truth};
         folders.insert(folders.end(), flights.begin(), flights.end());
-        const auto report = Report::of(folders, "", error);
-        ASSERT_TRUE(report) << error;
-        for (const report::Mismatch& mismatch : report->mismatches())
+        for (const report::Mismatch& mismatch : mismatchesOf(report::readFlights(folders, "")))
             ADD_FAILURE() << mismatch.label << " at " << mismatch.pose << ": " << mismatch.pixels << " pixels";
     }
 
