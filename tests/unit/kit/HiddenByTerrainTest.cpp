@@ -275,6 +275,13 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
              absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
              wrap(model, *absolute);
          }},
+        {"another frame, culled",
+         [](auto& model) {
+             const osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
+             absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+             absolute->setCullingActive(true);
+             wrap(model, *absolute);
+         }},
         {"a frame that turns to the eye", [](auto& model) { wrap(model, *new osg::AutoTransform); }},
         {"a shear",
          [](auto& model) {
@@ -365,7 +372,10 @@ TEST(HiddenByTerrain, FollowsStatesAbove) {
         const osg::ref_ptr<osg::Group> group = new osg::Group;
         if (ignoresDepth) group->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
         globe.scene->addChild(group);
-        const auto first = globe.add(kBehindRidge, *group), second = globe.add(kBehindRidge, *group);
+        const osg::ref_ptr<osg::Group> inner = new osg::Group;
+        inner->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+        group->addChild(inner);
+        const auto first = globe.add(kBehindRidge, *inner), second = globe.add(kBehindRidge, *inner);
         const auto other = globe.add(kBehindRidge);
         stateOf(*second).setMode(GL_BLEND, osg::StateAttribute::ON);
         EXPECT_EQ(globe.draws(*first, RidgeGlobe::alongRow()), ignoresDepth);
