@@ -275,12 +275,13 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
              absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
              wrap(model, *absolute);
          }},
-        {"another frame, culled",
+        {"a part in another frame, culled",
          [](auto& model) {
              const osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
              absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
              absolute->setCullingActive(true);
-             wrap(model, *absolute);
+             absolute->addChild(model.getChild(0));
+             model.addChild(absolute);
          }},
         {"a frame that turns to the eye", [](auto& model) { wrap(model, *new osg::AutoTransform); }},
         {"a shear",
