@@ -32,6 +32,12 @@ std::vector<osg::Plane> CullView::sidePlanes() const {
     return frustum.getPlaneList();
 }
 
+bool holdAny(const std::vector<osg::Plane>& planes, const std::vector<osg::Vec3d>& points) {
+    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
+        return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& p) { return p.distance(point) > 0.0; });
+    });
+}
+
 namespace {
 
 void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* viewport, osgUtil::CullVisitor& visitor) {

@@ -36,6 +36,9 @@ struct CullView {
     [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
 };
 
+/// Whether one of the points is inside of all planes.
+[[nodiscard]] bool holdAny(const std::vector<osg::Plane>& planes, const std::vector<osg::Vec3d>& points);
+
 /// What a cull traversal leaves to draw.
 struct CullResult {
     std::set<const osg::Drawable*> drawn;  // by the view itself, not by cameras that render to textures

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The program on a flat map. That nothing in view is culled there: PlanarDatabaseTest.cpp, osgbinconv.MapTest.cpp.
+// The program on a flat map. PlanarDatabaseTest.cpp tests that it culls nothing in view there.
 
 #include "BenchProgram.h"
 
