@@ -625,7 +625,7 @@ FAULTS = [
     Fault("a known mesh is taken for drawn whatever its states", "src/kit/cull/FamilyTile.cpp",
           " || !drawnStateOf(node, rules).hides)", ")", SCENES, NAMED),
     Fault("a known mesh is taken for drawn whatever its update callbacks", "src/kit/cull/FamilyTile.cpp",
-          "!isKnown || node.getUpdateCallback() || node.getEventCallback()", "!isKnown", SCENES, NAMED),
+          "!isKnown || mayChange(node)", "!isKnown", SCENES, NAMED),
     Fault("a group's spheres are tested against no plane", "src/kit/cull/SelectionEvidence.cpp",
           "const core::PlaneMask planes = _toEcef ? ~core::PlaneMask{0} : _undecided;",
           "const core::PlaneMask planes = 0;", NODE, "Spheres.*"),

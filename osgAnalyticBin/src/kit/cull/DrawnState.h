@@ -64,6 +64,11 @@ struct StateRules {
 /// Of a node by its state and its class, whatever its callbacks, its primitives and what is below it.
 [[nodiscard]] DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules);
 
+/// Whether a callback may change a node between cull traversals.
+[[nodiscard]] inline bool mayChange(const osg::Node& node) {
+    return node.getUpdateCallback() || node.getEventCallback();
+}
+
 /// Whether a node draws no lines and no points, which are drawn wider than their vertices reach.
 [[nodiscard]] bool drawsFaces(const osg::Node& node);
 

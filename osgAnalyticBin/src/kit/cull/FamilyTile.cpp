@@ -304,8 +304,7 @@ bool FamilyTile::isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSe
         const osg::Node& node = *part(i);
         const Kind kind = _parts[i].kind;
         const bool isKnown = kind != Kind::Unknown && kind != Kind::Terrain;
-        if (!isKnown || node.getUpdateCallback() || node.getEventCallback() || !drawnStateOf(node, rules).hides)
-            return false;
+        if (!isKnown || mayChange(node) || !drawnStateOf(node, rules).hides) return false;
         if (kind != Kind::Geometry) continue;
         const auto& drawable = static_cast<const osg::Drawable&>(node);
         if (drawable.getDrawCallback() || drawable.getComputeBoundingBoxCallback()) return false;

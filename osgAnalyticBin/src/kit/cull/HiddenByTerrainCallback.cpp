@@ -47,10 +47,8 @@ bool holdsLevels(const osg::LOD& lod) {
 // Whether a node is drawn within its sphere if its children are in theirs.
 bool drawsWithinSphere(const osg::Node& node) {
     if (node.getComputeBoundingSphereCallback() && BoundWatch::hasOwnBound(node)) return false;
-    if (const osg::Drawable* const drawable = node.asDrawable()) {
-        const bool mayChange = drawable->getUpdateCallback() || drawable->getEventCallback();
-        return !drawable->getComputeBoundingBoxCallback() && !mayChange;
-    }
+    if (const osg::Drawable* const drawable = node.asDrawable())
+        return !drawable->getComputeBoundingBoxCallback() && !mayChange(*drawable);
     if (const osg::Transform* const transform = node.asTransform()) return keepsSpheres(*transform);
     if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node)) return true;
     if (isOneOf<osg::Billboard, osgTerrain::TerrainTile>(node)) return false;

@@ -35,11 +35,6 @@ osg::PagedLOD* pagedLod(osg::Node& node) {
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
-// Whether a callback may change a part of a mesh after the search.
-bool mayChange(const osg::Node& part) {
-    return part.getUpdateCallback() || part.getEventCallback();
-}
-
 // Whether the frame inside a node depends on the frame of its parent.
 bool standsBelowParent(const osg::Node& node) {
     const osg::Transform* const transform = node.asTransform();
