@@ -67,17 +67,19 @@ bool Database::replacesClusters() const {
 
 // Requires: the lock. What is in the scene by now is not late: it is fitted again anyway.
 void Database::beginGeneration() {
-    takeMerged();
+    takeMerged(true);
     ++_generation;
 }
 
-// Forgets what is in the scene or deleted. Requires: the lock.
-void Database::takeMerged() {
-    const auto isGone = [this](const OnItsWay& content) {
+// Forgets what is in the scene or deleted: all of it, or what something has to be done for. Requires: the lock.
+void Database::takeMerged(bool isForAll) {
+    const auto isGone = [&](const OnItsWay& content) {
+        const bool isLate = content.generation != _generation;
+        if (!isForAll && !isLate && !content.isAdded) return false;
         osg::ref_ptr<osg::Node> node;
         if (!content.node.lock(node)) return true;
         if (node->getNumParents() == 0) return false;
-        if (content.generation != _generation) requestRefit();
+        if (isLate) requestRefit();
         if (!content.isAdded) return true;
         for (osg::Group* const parent : node->getParents()) noteChanged(*parent);
         return true;
@@ -135,10 +137,7 @@ void Database::noteOnItsWay(osg::Node& content, unsigned int generation, bool is
 void Database::findMerged() {
     constexpr std::size_t kMany = 64;
     const std::lock_guard<std::mutex> lock(_mutex);
-    const auto isAwaited = [this](const OnItsWay& content) {
-        return content.isAdded || content.generation != _generation;
-    };
-    if (_onTheirWay.size() > kMany || std::any_of(_onTheirWay.begin(), _onTheirWay.end(), isAwaited)) takeMerged();
+    takeMerged(_onTheirWay.size() > kMany);
 }
 
 bool Database::needsUpdate() {

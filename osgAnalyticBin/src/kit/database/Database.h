@@ -164,7 +164,7 @@ private:
     void correct(const InstalledTile& tile, const Widening& by);
     void adoptIndex();
     void beginGeneration();
-    void takeMerged();
+    void takeMerged(bool isForAll);
     void findMerged();
     void makePlates();
     void renewFamilies();
