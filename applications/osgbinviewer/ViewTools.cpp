@@ -77,7 +77,7 @@ HomeView homeViewOf(osg::Node& scene, const osg::Matrixd& projection) {
     const double globeRadius = globe.ellipsoid->getRadiusPolar();
     const bool isGeocentric = (middle - globeCenter).length() + radius > 0.5 * globeRadius;
     if (isGeocentric && radius > 0.9 * globeRadius) {
-        // over Europe and Africa, where most globes are looked at first
+        // over Europe and Africa: most people look there first
         osg::Vec3d outward = osg::Matrixd::transform3x3(osg::Vec3d(0.85, 0.15, 0.5), globe.localToWorld);
         outward.normalize();
         constexpr double kRoom = 1.15;

@@ -28,7 +28,7 @@ struct PathGroup {
 /// The groups in the order in which their first poses come; every pose is in one.
 [[nodiscard]] std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses);
 
-/// The sums of the columns over the poses of one group, or over all rows. Requires: one row at least.
+/// The sums of the columns over the poses of one group, or over all rows. Requires: at least one row.
 [[nodiscard]] Json sumOf(const MethodFigures& method, const PathGroup& group);
 [[nodiscard]] Json sumOf(const MethodFigures& method);
 

@@ -191,7 +191,7 @@ TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
     EXPECT_GT(culled, 0u);
 }
 
-// Without threads there are no races; the soak flies in all models.
+// A single thread has no races. The soak flies in all models.
 const auto kModels = testing::ValuesIn(std::begin(kThreadingModels) + 1, std::end(kThreadingModels));
 
 INSTANTIATE_TEST_SUITE_P(Views, Threads, testing::Combine(kModels, testing::Values(Layout::Views), testing::Values(4)),

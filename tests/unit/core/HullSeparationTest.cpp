@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The search for a parting plane. Oracle: hulls that libccd says meet or not. Bins with a point known to be inside
-// the frustum: Planets, and ten million trials of HullSoundness.cpp.
+// The search for a parting plane. Oracle: libccd says which hulls meet. Planets and HullSoundness.cpp (ten million
+// trials) test bins with a point that is known to be inside the frustum.
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Oracle: all 27 vertices, edges, faces and interior solved in long double by elimination with pivoting.
+// Oracle: the stationary points of the cube, its faces and its edges, solved in long double by elimination with
+// pivoting, and its vertices.
 
 #include <osgAnalyticBin/core/bin/QuadraticRange.h>
 

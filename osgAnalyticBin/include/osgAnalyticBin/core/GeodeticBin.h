@@ -18,7 +18,7 @@ struct Interval {
     /// The upper end.
     double upper = 0.0;
 
-    /// Of no number.
+    /// Holds no number.
     [[nodiscard]] static constexpr Interval none() noexcept {
         return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     }

@@ -90,13 +90,13 @@ Quadratic withFirst(std::size_t first, const Quadratic& q) {
     return {q.value, {g[2], g[0], g[1]}, {h[kWW], h[kUU], h[kVV], h[kUW], h[kVW], h[kUV]}};
 }
 
-// Over the two faces at the ends of a parameter.
+// The range over the two faces of the cube where this parameter is -1 or 1.
 Interval rangeOfFaces(std::size_t parameter, const Quadratic& given) {
     const Quadratic q = withFirst(parameter, given);
     return rangeOf(atU(q, -1.0)).united(rangeOf(atU(q, 1.0)));
 }
 
-// The largest square comes first: the pivot of the elimination.
+// Puts the parameter with the largest square first: the pivot of the elimination.
 Quadratic largestSquareFirst(const Quadratic& q) {
     const auto& h = q.hessian;
     const auto isSmaller = [](double a, double b) { return std::abs(a) < std::abs(b); };

@@ -54,7 +54,7 @@ struct DatabaseView {
     const core::CoveredRegion* region = nullptr;  // that is covered; null: the globe
     bool expectsHole = false;                     // as in the last view
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
-    const core::HorizonEye* fileEye = nullptr;    // no files are asked for yet behind its horizon; null: for all tiles
+    const core::HorizonEye* fileEye = nullptr;    // tiles behind its horizon ask for no files; null: all tiles ask
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored

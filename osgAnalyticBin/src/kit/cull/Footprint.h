@@ -58,7 +58,7 @@ public:
     };
 
 private:
-    // the address of a cache line, and in its low bits how many lines are read from there; 0 follows the last one
+    // each is the address of a cache line, with the number of lines to read in its low bits; the first 0 ends the list
     mutable std::array<std::atomic<std::uintptr_t>, kRuns> _runs{};
 };
 

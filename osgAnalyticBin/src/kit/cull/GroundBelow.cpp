@@ -31,7 +31,8 @@ public:
     void apply(osg::Geode& geode) override { apply(static_cast<osg::Group&>(geode)); }
 };
 
-// Made in the update traversal, and not to be made here, where others may cull the same tile.
+// OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
+// tile.
 bool hasMesh(osg::Node& mesh) {
     bool has = true;
     forEachNode(mesh, [&has](osg::Node& node) {
@@ -72,7 +73,7 @@ bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) c
 bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
-    // a mesh may change without a word: a result is used for a second or so
+    // an application may change a mesh without saying so: a result is used for about a second
     constexpr int kMostUses = 60;
     const bool isSame = ground.isAsRead && _mesh.get() == &ground.mesh && _localToEcef == ground.localToEcef;
     if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up)) return true;

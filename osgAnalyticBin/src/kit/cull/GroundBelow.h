@@ -29,7 +29,7 @@ public:
     /// Whether the mesh is below the eye along the ellipsoid's normal. False in doubt: where the normal meets no
     /// triangle, and for terrain tiles that have no mesh yet.
     /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
-    /// triangle of a mesh that is as it was read.
+    /// triangle of a mesh that has not changed.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);
 
 private:

@@ -15,8 +15,8 @@ namespace osgAnalyticBin {
 /// An eye over the terrain that is shown.
 struct FoundEye {
     core::HorizonEye horizon;
-    /// Whether the eye is above the ground. False: not yet, for a finer mesh of the ground is awaited. Nothing is
-    /// hidden then, but what would be is not needed soon.
+    /// Whether the eye is above the ground. False: a finer mesh of the ground is awaited, and the eye may be above that
+    /// one. Nothing is hidden then, but files of tiles behind the horizon can wait.
     bool isAboveGround;
 };
 

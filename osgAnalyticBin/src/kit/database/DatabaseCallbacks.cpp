@@ -63,8 +63,9 @@ bool isHoleTakenForGranted(OcclusionUse use, CullTraversal::LastView& last) {
     return true;
 }
 
-// After a jump to low above the ground the eye may be below coarse meshes, until finer ones come. What the horizon will
-// hide then is drawn, but its finer levels would come for nothing. They are asked for if the ground does not come.
+// After a jump to low above the ground the eye may be below coarse meshes until finer ones come. Tiles that the horizon
+// hides once they are there are drawn until then, but need no finer levels. If the ground does not come, they ask for
+// them.
 bool isWaiting(const std::optional<FoundEye>& found, CullTraversal::LastView& last) {
     constexpr unsigned int kLongest = 120;
     last.waits = found && !found->isAboveGround ? last.waits + 1 : 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The reverse test. Bins with a point known to be inside the frustum, by long double: HullSoundness.cpp.
+// The reverse test. HullSoundness.cpp tests bins with a point that is inside the frustum by long double.
 
 #include "FrustumHull.h"
 

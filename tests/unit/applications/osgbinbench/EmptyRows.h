@@ -10,7 +10,7 @@
 
 namespace osgAnalyticBin::bench {
 
-// What was measured at so many poses: nothing.
+// The figures of a number of poses, all of them 0.
 inline std::vector<report::Json> emptyRows(std::size_t poses) {
     report::Json row;
     for (const Column& column : kPoseColumns) {
