@@ -43,6 +43,19 @@ struct OpenVisitor : public osgUtil::CullVisitor {
     }
 };
 
+// The product as osg::Matrixd::preMult() computes it, term by term, but in vectors.
+osg::Matrixd product(const osg::Matrixd& first, const osg::Matrixd& second) {
+    const double* const a = first.ptr();
+    const double* const b = second.ptr();
+    std::array<double, 16> sums;
+    for (std::size_t row = 0; row < sums.size(); row += 4) {
+        for (std::size_t column = 0; column < 4; ++column)
+            sums[row + column] = a[row] * b[column] + a[row + 1] * b[4 + column] + a[row + 2] * b[8 + column] +
+                                 a[row + 3] * b[12 + column];
+    }
+    return osg::Matrixd(sums.data());
+}
+
 class StateScope {
 public:
     StateScope(osgUtil::CullVisitor& visitor, const osg::StateSet* state) : _visitor(visitor), _state(state) {
@@ -160,8 +173,7 @@ private:
 
     void enterFrame(osg::MatrixTransform& transform) {
         _frame = &transform.getMatrix();
-        _matrix = OpenVisitor::matrix(_visitor, *_visitor.getModelViewMatrix());
-        _matrix->preMult(*_frame);
+        _matrix = OpenVisitor::matrix(_visitor, product(*_frame, *_visitor.getModelViewMatrix()));
     }
     void leaveFrame() {
         _frame = nullptr;
@@ -242,27 +254,30 @@ FamilyTile::FamilyTile(osg::Node& tile, const AnalyticBinCullCallback& callback)
       _paged(dynamic_cast<osg::PagedLOD*>(&tile)),
       _isPossible(isExactly<osg::PagedLOD>(tile) || kindOf(tile) == Kind::Group || kindOf(tile) == Kind::Terrain) {
     osg::Node* const mesh = meshOf(tile, _paged);
-    std::size_t count = 0;
-    if (!mesh || !append(*mesh, count)) {
+    if (!mesh || !append(*mesh)) {
         _parts = {};
+        _count = 0;
         return;
     }
     _isOwnMesh = mesh == &tile;
     _isDrawn = canBeDrawn();
+    _areClassesKnown = std::all_of(_parts.begin(), _parts.begin() + _count, [](const Part& part) {
+        return part.kind != Kind::Unknown && part.kind != Kind::Terrain;
+    });
 }
 
 // Adds a node of the mesh. Returns: whether OSG draws all of it as long as it enters each of the parts, and there is
 // room for all.
-bool FamilyTile::append(osg::Node& node, std::size_t& count) {
-    if (count == kMostParts) return false;
-    _parts[count].node = &node;
-    _parts[count++].kind = kindOf(node);
+bool FamilyTile::append(osg::Node& node) {
+    if (_count == kMostParts) return false;
+    _parts[_count].node = &node;
+    _parts[_count++].kind = kindOf(node);
     if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
     // a group without children draws nothing
     osg::Group* const group = node.asGroup();
     bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
     for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
-        areKnown = append(*group->getChild(i), count);
+        areKnown = append(*group->getChild(i));
     }
     return areKnown;
 }
@@ -299,13 +314,11 @@ bool FamilyTile::isAlone(const osg::Node& tile, const osg::CullSettings& setting
 
 bool FamilyTile::isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
                               const StateRules& rules) const {
-    if (!part(0) || !isMeshAsKnown(visitor, settings)) return false;
-    for (std::size_t i = 0; part(i); ++i) {
-        const osg::Node& node = *part(i);
-        const Kind kind = _parts[i].kind;
-        const bool isKnown = kind != Kind::Unknown && kind != Kind::Terrain;
-        if (!isKnown || mayChange(node) || !drawnStateOf(node, rules).hides) return false;
-        if (kind != Kind::Geometry) continue;
+    if (!_areClassesKnown || !isMeshAsKnown(visitor, settings)) return false;
+    for (std::size_t i = 0; i < _count; ++i) {
+        const osg::Node& node = *_parts[i].node;
+        if (mayChange(node) || !drawnStateOf(node, rules).hides) return false;
+        if (_parts[i].kind != Kind::Geometry) continue;
         const auto& drawable = static_cast<const osg::Drawable&>(node);
         if (drawable.getDrawCallback() || drawable.getComputeBoundingBoxCallback()) return false;
     }
@@ -364,7 +377,7 @@ bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
 }
 
 bool FamilyTile::isMeshAsKnown(const osg::NodeVisitor& visitor, const osg::CullSettings& settings) const {
-    for (std::size_t i = 0; part(i); ++i) {
+    for (std::size_t i = 0; i < _count; ++i) {
         const Part& known = _parts[i];
         const bool isTile = i == 0 && _isOwnMesh;
         if (!isTile && !isPassive(*known.node, visitor, settings)) return false;

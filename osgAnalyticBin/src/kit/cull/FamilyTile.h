@@ -114,7 +114,7 @@ private:
 
     [[nodiscard]] static Kind kindOf(const osg::Node& node);
     [[nodiscard]] static osg::Node* meshOf(osg::Node& tile, osg::PagedLOD* paged);
-    [[nodiscard]] bool append(osg::Node& node, std::size_t& count);
+    [[nodiscard]] bool append(osg::Node& node);
     [[nodiscard]] bool canBeDrawn();
     [[nodiscard]] bool isMeshAsKnown(const osg::NodeVisitor& visitor, const osg::CullSettings& settings) const;
 
@@ -123,7 +123,9 @@ private:
     osg::PagedLOD* _paged = nullptr;
     bool _isPossible = false;
     bool _isOwnMesh = false;
-    bool _isDrawn = false;  // here, not by OSG
+    bool _isDrawn = false;          // here, not by OSG
+    bool _areClassesKnown = false;  // of all parts
+    unsigned char _count = 0;       // of parts
     std::array<Part, kMostParts> _parts;
     BoundedMesh _bounded;
     Footprint _wayThrough;

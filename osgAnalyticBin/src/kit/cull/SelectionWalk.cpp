@@ -113,26 +113,26 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
     if (children < family.size()) doubt();
     bool isChanged = children != family.size();
     if (_keeps) _selection.addFamily(family);
-    TileFamily::Verdicts verdicts;
+    Siblings siblings{family};
+    const TileFamily::Verdicts& verdicts = siblings.verdicts;
     for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
-        family.test(group, first, _view.planes, _undecided, _hiding, !_ignoresDepth, verdicts);
+        family.test(group, first, _view.planes, _undecided, _hiding, !_ignoresDepth, siblings.verdicts);
         if (verdicts.lacksTiles) doubt();
         isChanged = isChanged || verdicts.lacksTiles;
-        const std::uint64_t kept = _keeps ? keptOf(family, first, verdicts) : 0;
-        const std::uint64_t notSearched = _searches && first < family.size()
-                                              ? notSearchedIn(verdicts, family.block().partFrom(first))
-                                              : verdicts.members;
+        siblings.kept = _keeps ? keptOf(family, first, verdicts) : 0;
+        if (first < family.size()) describe(siblings, family.block().partFrom(first));
         constexpr unsigned int kLinesOfTile = 5;
-        forEachBit(kept, [&](unsigned int number) {
+        forEachBit(siblings.kept, [&](unsigned int number) {
             prefetchNode(family.node(first + number), kLinesOfTile);
             family.tile(first + number).wayThrough().fetch();
         });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
-        forEachBit(lowestBits(here) & ~(notSearched & ~kept), [&](unsigned int number) {
+        const std::uint64_t passedOver = verdicts.members & ~(siblings.kept | siblings.searched);
+        forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);
             if (!hasBit(verdicts.members, number)) return selectNode(child);
-            selectMember(child, family, verdicts, first + number, hasBit(kept, number));
+            selectMember(child, siblings, first + number);
         });
     }
     if (isChanged && _keeps) _view.database->noteChanged(group);
@@ -167,44 +167,47 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     return verdicts.members & ~culled;
 }
 
-// Tiles out of view that are not about the eye, and whose column is the bin or reaches no deeper than the occluder:
-// lines of sight would meet the bin before the occluder.
-std::uint64_t SelectionWalk::notSearchedIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const {
-    if (_search.place && _search.place->altitude <= part.highest) return 0;
-    const std::uint64_t withColumns = part.lowest < -_search.occluder ? part.withOwnColumns : 0;
-    return verdicts.members & (verdicts.outOfView() | verdicts.beyond) & ~withColumns;
+// Which of them are searched for evidence. Tiles out of view that are not about the eye, and whose column is the bin or
+// reaches no deeper than the occluder, are passed over: lines of sight would meet the bin before the occluder.
+void SelectionWalk::describe(Siblings& siblings, const TileBlock::Part& part) const {
+    siblings.certain = part.certain.load(std::memory_order_relaxed);
+    if (!_searches) return;
+    const TileFamily::Verdicts& verdicts = siblings.verdicts;
+    const std::uint64_t outOfView = verdicts.outOfView() | verdicts.beyond;
+    siblings.inView = verdicts.tested & ~outOfView;
+    siblings.mayHoldEye = _search.place && _search.place->altitude <= part.highest;
+    siblings.withColumns = part.lowest < -_search.occluder ? part.withOwnColumns : 0;
+    siblings.searched = siblings.mayHoldEye ? verdicts.members : verdicts.members & (~outOfView | siblings.withColumns);
 }
 
-bool SelectionWalk::isSearched(const Tile& tile, const TileFamily& family, const TileFamily::Verdicts& verdicts,
-                               unsigned int slot) const {
-    const unsigned int number = slot % TileBlock::Part::kMost;
-    const bool isInView = hasBit(verdicts.tested, number) && !hasBit(verdicts.outOfView() | verdicts.beyond, number);
-    if (isInView || tile.isAboutEye) return true;
-    const bool isBin = !hasBit(family.block().partFrom(slot).withOwnColumns, number);
-    if (isBin || tile.numbers.altitude.lower >= -_search.occluder || isBesideFrustum(tile.numbers.column)) return false;
-    return !_hiding.eye || !family.block().isColumnHidden(slot, *_hiding.eye);
+// Whether lines of sight pass through the column of a tile out of view, above its surface.
+bool SelectionWalk::isColumnSeen(const TileBlock::Slot& numbers, const TileBlock& block, unsigned int slot) const {
+    if (numbers.altitude.lower >= -_search.occluder || isBesideFrustum(numbers.column)) return false;
+    return !_hiding.eye || !block.isColumnHidden(slot, *_hiding.eye);
 }
 
-void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
-                                 unsigned int slot, bool isKept) {
+void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsigned int slot) {
     const unsigned int number = slot % TileBlock::Part::kMost;
-    const FamilyTile& member = family.tile(slot);
-    const TileBlock::Slot& numbers = family.block()[slot];
+    const TileBlock& block = siblings.family.block();
+    const FamilyTile& member = siblings.family.tile(slot);
+    const TileBlock::Slot& numbers = block[slot];
     const bool isAboutEye =
-        _searches && _search.place && _search.place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
+        siblings.mayHoldEye && _search.place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
+    const bool isSearched = _searches && (hasBit(siblings.inView, number) || isAboutEye ||
+                                          (hasBit(siblings.withColumns, number) && isColumnSeen(numbers, block, slot)));
+    const Scoped searches(_searches, isSearched);
+    const Scoped keeps(_keeps, hasBit(siblings.kept, number) && _visitor.validNodeMask(node));
+    if (!_searches && !_keeps) return;
     const bool isAlone = member.isAlone(node, _view.cullStack);
     Tile tile{*member.callback(), numbers, true, &member, !_isPlainVisitor || !isAlone, isAboutEye};
-    tile.isOutOfView = hasBit(verdicts.outOfView(), number);
-    const Scoped searches(_searches, _searches && isSearched(tile, family, verdicts, slot));
-    const Scoped keeps(_keeps, isKept && _visitor.validNodeMask(node));
-    if (!_searches && !_keeps) return;
+    tile.isOutOfView = hasBit(siblings.verdicts.outOfView(), number);
     const DrawnState drawn = stateOf(node);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
-    const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : verdicts.planes.undecided[number]);
+    const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : siblings.verdicts.planes.undecided[number]);
     const Scoped outOfView(_isBelowOutOfView,
                            _isBelowOutOfView || (_searches && numbers.testsSphere && isLeftOut(node)));
     const bool mayLeaveOut = _searches && !isAlone && CullCallbacks(node).mayLeaveOut;
-    tile.isCertain = hasBit(family.block().partFrom(slot).certain.load(std::memory_order_relaxed), number);
+    tile.isCertain = hasBit(siblings.certain, number);
     const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();
     if (_isDoubtful || isSeeThrough || !drawn.hides || mayLeaveOut || !_visitor.validNodeMask(node)) doubt();
     if (_hasHole) return;
@@ -212,7 +215,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
-    const bool waits = _view.fileEye && family.block().isHidden(slot, *_view.fileEye);
+    const bool waits = _view.fileEye && block.isHidden(slot, *_view.fileEye);
     tile.kept = keep(node, &member, isDirect ? way : Way::Tile, waits);
     tile.isEnteredByOsg = tile.isEnteredByOsg || member.paged();
     const Scoped segment(_segment, TileSelection::kNone), in(_in, TileSelection::kNone);

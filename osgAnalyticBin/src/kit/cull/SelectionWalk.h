@@ -83,12 +83,23 @@ private:
         Number kept = TileSelection::kNone;
     };
 
+    // What is known of siblings together; bits as in the verdicts.
+    struct Siblings {
+        const TileFamily& family;
+        TileFamily::Verdicts verdicts{};
+        std::uint64_t kept = 0, certain = 0;
+        // for evidence
+        std::uint64_t searched = 0, inView = 0;
+        std::uint64_t withColumns = 0;  // that are more than the bin, where some tile is deeper than the occluder
+        bool mayHoldEye = false;
+    };
+
     void selectChildren(osg::Group& group, const TileFamily* family);
     void selectFamily(osg::Group& group, const TileFamily& family);
     [[nodiscard]] std::uint64_t keptOf(const TileFamily& family, unsigned int first,
                                        const TileFamily::Verdicts& verdicts);
-    void selectMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
-                      unsigned int slot, bool isKept);
+    void describe(Siblings& siblings, const TileBlock::Part& part) const;
+    void selectMember(osg::Node& node, const Siblings& siblings, unsigned int slot);
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
     void selectInside(osg::Group& group, const TileFamily* family);
@@ -108,9 +119,7 @@ private:
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
     [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);
-    [[nodiscard]] std::uint64_t notSearchedIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const;
-    [[nodiscard]] bool isSearched(const Tile& tile, const TileFamily& family, const TileFamily::Verdicts& verdicts,
-                                  unsigned int slot) const;
+    [[nodiscard]] bool isColumnSeen(const TileBlock::Slot& numbers, const TileBlock& block, unsigned int slot) const;
     [[nodiscard]] osg::BoundingSphere sphereOf(const osg::Node& node) const;
     [[nodiscard]] bool isLeftOut(const osg::Node& node) const;
     [[nodiscard]] bool isSmallFeature(const osg::Node& node) const;
