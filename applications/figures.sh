@@ -49,7 +49,7 @@ path_options() {
 }
 high=$(path_options nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning)
 low=$(path_options valley nap hilltop helicopter drone approach)
-peers=sphere,cluster,cluster+raster,orientedbox+horizon+edges
+peers=sphere,cluster,orientedbox+horizon+edges
 default=bins
 
 step "High views"
@@ -65,7 +65,7 @@ on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --size 640x360 \
     --repeats 12 --live 0 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
 # shellcheck disable=SC2086
 on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
-    --methods sphere,cluster,cluster+raster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
+    --methods sphere,cluster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
     --size 640x360 --repeats 8 --live 0 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
 step "Frames of flights"

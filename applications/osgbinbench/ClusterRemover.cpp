@@ -4,7 +4,6 @@
 #include "ClusterRemover.h"
 
 #include "Angles.h"
-#include "CullMethod.h"
 #include "GlmBridge.h"
 #include "TileVertices.h"
 
@@ -133,7 +132,7 @@ ClusterRemover::Result ClusterRemover::readNode(const std::string& fileName, con
     Result result = ReadInFront::readNode(fileName, options);
     if (!result.getNode()) return result;
     if (_treatment == Clusters::Remove) removeClusterCallbacks(*result.getNode());
-    if (_treatment == Clusters::Fill || _treatment == Clusters::FillForRaster) fill(*result.getNode());
+    if (_treatment == Clusters::Fill) fill(*result.getNode());
     return result;
 }
 
@@ -148,7 +147,6 @@ void ClusterRemover::fill(osg::Node& graph) {
             pageOf = _ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
-    if (_treatment == Clusters::FillForRaster) peers().prepareTiles(graph, pageOf.get());
 }
 
 ExpiryRaiser::Result ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {

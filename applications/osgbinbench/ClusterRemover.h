@@ -55,8 +55,7 @@ std::size_t fillClusterCallbacks(osg::Node& graph, const osg::EllipsoidModel* pa
 enum class Clusters {
     Keep,
     Remove,
-    Fill,          ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
-    FillForRaster  ///< as Fill, and tiles are prepared for Peers::install()
+    Fill  ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
 };
 
 /// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the

@@ -16,11 +16,15 @@ namespace {
 
 constexpr std::array<const char*, 2> kBinBases{"quadratic", "exact"};
 constexpr std::array<const char*, 4> kPeerBases{"box", "orientedbox", "corners", "paper"};
+#ifdef OSGANALYTICBIN_RESEARCH
+constexpr bool kArePeersBuilt = true;
+#else
+constexpr bool kArePeersBuilt = false;
+#endif
 
-constexpr std::array<const char*, 22> kAll{"none",
+constexpr std::array<const char*, 21> kAll{"none",
                                            "sphere",
                                            "cluster",
-                                           kRasterMethod,
                                            kDefaultMethod,
                                            "box",
                                            "box+horizon",
@@ -54,15 +58,10 @@ bool isOneOf(const std::array<const char*, Count>& names, const std::string& nam
 }
 
 bool isPeer(const std::string& name) {
-    return name == kRasterMethod || isOneOf(kPeerBases, name.substr(0, name.find('+')));
+    return isOneOf(kPeerBases, name.substr(0, name.find('+')));
 }
 
 }  // namespace
-
-Peers& peers() {
-    static Peers peers;
-    return peers;
-}
 
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     // an index that becomes complete meanwhile would change the figures
@@ -91,17 +90,15 @@ CullMethod cullMethodFromName(const std::string& name) {
         oracle.replaysVerdicts = true;
         return oracle;
     }
-    if (isPeer(name) && !peers().areBuilt())
+    if (isPeer(name) && !kArePeersBuilt)
         throw UsageError("--methods: \"" + name + "\" is for comparison; build with OSGANALYTICBIN_RESEARCH=ON");
     CullMethod method;
     method.name = name;
     method.cullsNothing = name == kReferenceMethod;
     // stock OSG, "cluster" with what a builder of databases gives it
-    if (method.cullsNothing || name == "sphere" || name == "cluster" || name == kRasterMethod) {
+    if (method.cullsNothing || name == "sphere" || name == "cluster") {
         method.loaderMethod = method.cullsNothing ? "none" : "sphere";
-        method.clusters = name == "cluster"       ? Clusters::Fill
-                          : name == kRasterMethod ? Clusters::FillForRaster
-                                                  : Clusters::Remove;
+        method.clusters = name == "cluster" ? Clusters::Fill : Clusters::Remove;
         return method;
     }
     method.isDefault = name == kDefaultMethod;
@@ -120,7 +117,7 @@ CullMethod cullMethodFromName(const std::string& name) {
     if (!method.loaderMethod.empty() && makesSense) return method;
     throw UsageError(
         "--methods: unknown method \"" + name +
-        "\"; use none, sphere, cluster, cluster+raster, bins, oracle, all, or box, orientedbox, corners, paper, "
+        "\"; use none, sphere, cluster, bins, oracle, all, or box, orientedbox, corners, paper, "
         "quadratic or exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with "
         "+horizon, also +occlusion");
 }
@@ -135,7 +132,7 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
         if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
         for (const char* const one : kAll)
-            if (name == kAllMethods && (peers().areBuilt() || !isPeer(one))) add(one);
+            if (name == kAllMethods && (kArePeersBuilt || !isPeer(one))) add(one);
     }
     return methods;
 }

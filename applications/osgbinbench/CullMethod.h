@@ -29,9 +29,6 @@ struct CullMethod {
     /// Whether what the bins decide at a pose is repeated without tests.
     bool replaysVerdicts = false;
 
-    /// Whether terrain hides terrain in a small depth buffer: research/raster.
-    [[nodiscard]] bool usesRaster() const { return clusters == Clusters::FillForRaster; }
-
     /// Whether the rule is another's: research/rivals.
     [[nodiscard]] bool usesRivals() const;
 
@@ -41,17 +38,6 @@ struct CullMethod {
     /// the horizon in them counts with methods that use the horizon.
     [[nodiscard]] std::string sceneName(const std::string& database, const std::string& binOptions) const;
 };
-
-/// What a build with applications/research adds.
-struct Peers {
-    /// Prepares the tiles of a file for the raster.
-    std::size_t (*prepareTiles)(osg::Node& graph, const osg::EllipsoidModel* pageOf) = nullptr;
-    /// Puts the raster on a root whose picture is that large.
-    void (*install)(osg::Node& root, int width, int height) = nullptr;
-
-    [[nodiscard]] bool areBuilt() const { return prepareTiles != nullptr; }
-};
-[[nodiscard]] Peers& peers();
 
 /// The method that all others are judged by: nothing is culled.
 inline constexpr const char* kReferenceMethod = "none";
@@ -63,13 +49,10 @@ inline constexpr const char* kDefaultMethod = "bins";
 inline constexpr const char* kOracleMethod = "oracle";
 inline constexpr const char* kReplayedMethod = "exact+horizon+edges";
 
-/// Stock OSG with cluster callbacks, and terrain behind terrain left out as games do it.
-inline constexpr const char* kRasterMethod = "cluster+raster";
-
 /// Stands for all methods that are worth comparing and built.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", "cluster+raster", "bins", "oracle", and box, orientedbox, corners, paper, quadratic and
+/// "none", "sphere", "cluster", "bins", "oracle", and box, orientedbox, corners, paper, quadratic and
 /// exact with their suffixes. Throws: Failure for a name that is unknown, not built, or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 

@@ -95,7 +95,6 @@ void MethodScene::load() {
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
-    if (_method.usesRaster()) peers().install(*root, _settings.width, _settings.height);
     _camera->addChild(root);
     _paged.emplace(*root, *_camera);
 }

@@ -16,10 +16,6 @@
 #include "Series.h"
 #include "TextFile.h"
 
-#ifdef OSGANALYTICBIN_RESEARCH
-#include "RasterCulling.h"
-#endif
-
 #include <osg/Notify>
 
 #include <algorithm>
@@ -149,9 +145,6 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-#ifdef OSGANALYTICBIN_RESEARCH
-    addPeers();
-#endif
     using osgAnalyticBin::support::runProgram;
     const std::string command = argc > 1 ? argv[1] : "";
     if (command == "report")
