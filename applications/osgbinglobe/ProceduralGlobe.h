@@ -5,21 +5,22 @@
 
 #include "GlobeOptions.h"
 #include "ProceduralTerrain.h"
+#include "TerrainGrid.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
-#include <osg/Geometry>
 #include <osg/Node>
-#include <osg/Vec3d>
 
 #include <TileLayout.h>
+#include <TileNode.h>
 #include <cstdint>
 #include <vector>
 
 namespace osgAnalyticBin::globe {
 
 /// A paged globe of terrain that a formula makes, in the layout of osgbindem: WGS 84, quadtrees below 16 x 8 tiles,
-/// skirts, a bin with each tile. Tiles that meet at one level share their edges to the last bit.
+/// skirts, a bin with each tile; heights are in whole steps of TerrainGrid. Tiles that meet at one level share their
+/// edges to the last bit.
 /// Threads: const members may be called by any number of threads at once.
 class ProceduralGlobe final {
 public:
@@ -44,19 +45,16 @@ public:
     [[nodiscard]] const ProceduralTerrain& terrain() const noexcept { return _terrain; }
 
 private:
-    class Posts;
-
     [[nodiscard]] bool hasChildren(const osgbindem::TileId& tile) const noexcept {
         return tile.level < _options.levels;
     }
     [[nodiscard]] double edgeError(int level) const noexcept;
-    [[nodiscard]] double skirtLean(int level) const noexcept;
+    [[nodiscard]] std::int32_t skirtLean(int level) const noexcept;
+    [[nodiscard]] TerrainGrid gridOf(const osgbindem::TileId& tile) const;
     [[nodiscard]] AnalyticBin binOf(const osgbindem::TileId& tile, const core::Interval& own) const;
     [[nodiscard]] core::GeodeticBin meshBox(const osgbindem::TileId& tile, int level,
                                             const core::Interval& heights) const;
-    [[nodiscard]] osg::ref_ptr<osg::Geometry> mesh(const Posts& posts, const glm::dvec3& originEcef) const;
-    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const osgbindem::TileId& tile, osg::DrawElements& triangles) const;
-    [[nodiscard]] osg::ref_ptr<osg::DrawElements> triangles() const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const osgbindem::TileId& tile, osgbindem::SharedParts& shared) const;
 
     GlobeOptions _options;
     osgbindem::TileLayout _layout;
