@@ -55,18 +55,18 @@ default=bins
 step "High views"
 # shellcheck disable=SC2086
 on_display "$build/bin/osgbinbench" "$out/earth.osgb" $high --methods "$peers,exact+horizon+edges,$default,oracle" \
-    --size 640x360 --repeats 12 --live 0 --csv "$out/paths.csv" --json "$out/paths.json" --plot "$out/paths" \
+    --size 640x360 --repeats 12 --csv "$out/paths.csv" --json "$out/paths.json" --plot "$out/paths" \
     >"$out/paths.txt"
 
 step "Low views, over the globe and over a region"
 # shellcheck disable=SC2086
 on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --size 640x360 \
     --methods "$peers,quadratic+horizon+edges,quadratic+horizon+edges+occlusion,$default" \
-    --repeats 12 --live 0 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
+    --repeats 12 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
 # shellcheck disable=SC2086
 on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
     --methods sphere,cluster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
-    --size 640x360 --repeats 8 --live 0 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
+    --size 640x360 --repeats 8 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
 step "Frames of flights"
 for threading in SingleThreaded DrawThreadPerContext; do
@@ -86,7 +86,7 @@ on_display python3 applications/latency.py "$out" --milliseconds 20 -- \
     "$build/bin/osgbinbench" URL/earth.osgb $jumps --json "$out/jumps_http.json" >"$out/jumps_http.txt"
 
 step "All methods"
-on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path data/paths/demo.csv --methods all --size 640x360 --live 0 \
+on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path data/paths/demo.csv --methods all --size 640x360 \
     --repeats 16 --csv "$out/methods.csv" --json "$out/methods.json" >"$out/methods.txt"
 
 step "The published experiment"

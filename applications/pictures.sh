@@ -79,7 +79,7 @@ for method in sphere quadratic; do
     poses="$frames/poses.csv" view 660 495 "method=$method" press=l "$steps"
 done
 xvfb-run -a -s "-screen 0 1280x720x24" env LIBGL_ALWAYS_SOFTWARE=1 "$build/bin/osgbinbench" "$database" \
-    --path "$frames/flight.csv" --methods sphere,quadratic+horizon+edges --size 660x495 --repeats 1 --flush 0 --live 0 \
+    --path "$frames/flight.csv" --methods sphere,quadratic+horizon+edges --size 660x495 --repeats 1 --flush 0 \
     --csv "$frames/counts.csv" >"$frames/log" || { cat "$frames/log" >&2; exit 1; }
 
 # Arguments: pose, what the method's name begins with. Prints the number of tiles drawn.

@@ -89,12 +89,18 @@ void BenchViewer::drawFrame() {
     _viewer.frame();
 }
 
-osg::ref_ptr<osg::Image> BenchViewer::picture() {
+osg::ref_ptr<osg::Image> BenchViewer::pictureOf(osg::Node& root, const osg::Camera& view,
+                                                osg::CullSettings::CullingMode culling) {
+    show(root, culling);
+    setView(view);
     _capture->request(_viewer.getFrameStamp()->getFrameNumber() + 1);
-    for (int i = 0; i < kMostPictureFrames; ++i) {
+    osg::ref_ptr<osg::Image> picture;
+    for (int i = 0; i < kMostPictureFrames && !picture; ++i) {
         drawFrame();
-        if (osg::ref_ptr<osg::Image> picture = _capture->take()) return picture;
+        picture = _capture->take();
     }
+    rest();
+    if (picture) return picture;
     throw Failure("a picture was never drawn; try --threading SingleThreaded");
 }
 

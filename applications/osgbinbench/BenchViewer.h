@@ -37,9 +37,9 @@ public:
 
     void setView(const osg::Camera& other);
 
-    /// Draws frames until the picture of one that begins now is there.
-    /// Throws: Failure when it does not come.
-    [[nodiscard]] osg::ref_ptr<osg::Image> picture();
+    /// What this scene looks like to a camera; rests afterwards. Throws: Failure when the picture does not come.
+    [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(osg::Node& root, const osg::Camera& view,
+                                                     osg::CullSettings::CullingMode culling);
 
     /// Draws from now on as other viewers do: what is opaque by its state, not in the order of the traversal.
     void sortByState();

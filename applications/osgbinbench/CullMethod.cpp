@@ -6,7 +6,8 @@
 #include "Failure.h"
 
 #include <algorithm>
-#include <array>
+#include <set>
+#include <sstream>
 
 namespace osgAnalyticBin::bench {
 
@@ -14,35 +15,22 @@ using support::UsageError;
 
 namespace {
 
-constexpr std::array<const char*, 2> kBinBases{"quadratic", "exact"};
-constexpr std::array<const char*, 4> kPeerBases{"box", "orientedbox", "corners", "paper"};
+// The rules of others, which a build with applications/research adds.
+const std::set<std::string> kPeerBases{"box", "orientedbox", "corners", "paper"};
 #ifdef OSGANALYTICBIN_RESEARCH
 constexpr bool kArePeersBuilt = true;
 #else
 constexpr bool kArePeersBuilt = false;
 #endif
 
-constexpr std::array<const char*, 21> kAll{"none",
-                                           "sphere",
-                                           "cluster",
-                                           kDefaultMethod,
-                                           "box",
-                                           "box+horizon",
-                                           "orientedbox",
-                                           "orientedbox+horizon",
-                                           "orientedbox+horizon+edges",
-                                           "corners",
-                                           "corners+horizon",
-                                           "paper",
-                                           "paper+horizon",
-                                           "quadratic",
-                                           "quadratic+horizon",
-                                           "quadratic+horizon+edges",
-                                           "exact",
-                                           "exact+horizon",
-                                           kReplayedMethod,
-                                           "exact+horizon+edges+occlusion",
-                                           kOracleMethod};
+constexpr const char* kAll =
+    "none sphere cluster bins box box+horizon orientedbox orientedbox+horizon orientedbox+horizon+edges corners "
+    "corners+horizon paper paper+horizon quadratic quadratic+horizon quadratic+horizon+edges exact exact+horizon "
+    "exact+horizon+edges exact+horizon+edges+occlusion oracle";
+
+bool isPeer(const std::string& name) {
+    return kPeerBases.count(name.substr(0, name.find('+'))) != 0;
+}
 
 // Takes a suffix off the end of a name. Returns: whether it was there.
 bool takeSuffix(std::string& name, const std::string& suffix) {
@@ -52,74 +40,56 @@ bool takeSuffix(std::string& name, const std::string& suffix) {
     return true;
 }
 
-template <std::size_t Count>
-bool isOneOf(const std::array<const char*, Count>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+CullMethod stockMethod(const std::string& name) {
+    CullMethod method;
+    method.cullsNothing = name == kReferenceMethod;
+    method.before = method.cullsNothing ? "method=none" : "method=sphere";
+    method.usesBins = false;
+    // "cluster" with what a builder of databases gives it
+    method.clusters = name == "cluster" ? Clusters::Fill : Clusters::Remove;
+    return method;
 }
 
-bool isPeer(const std::string& name) {
-    return isOneOf(kPeerBases, name.substr(0, name.find('+')));
+CullMethod binMethod(const std::string& name) {
+    std::string base = name;
+    const bool usesOcclusion = takeSuffix(base, "+occlusion");
+    const bool usesEdges = takeSuffix(base, "+edges");
+    const bool usesHorizon = takeSuffix(base, "+horizon");
+    // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
+    const bool isBin = base == "quadratic" || base == "exact";
+    if (!(isBin ? usesHorizon || !usesOcclusion : isPeer(base) && !usesOcclusion))
+        throw UsageError(
+            "--methods: unknown method \"" + name +
+            "\"; use none, sphere, cluster, bins, oracle, all, or box, orientedbox, corners, paper, quadratic or "
+            "exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion");
+    if (!isBin && !kArePeersBuilt)
+        throw UsageError("--methods: \"" + name + "\" is for comparison; build with OSGANALYTICBIN_RESEARCH=ON");
+    CullMethod method;
+    if (!isBin) method.loader = "binrival";
+    method.before = "method=" + base + ",index=on" + (usesHorizon ? ",horizon=declared" : "");
+    method.after = std::string(usesHorizon ? "" : ",horizon=off") + (usesEdges ? ",edges=on" : ",edges=off") +
+                   (usesOcclusion ? ",occlusion=on" : ",occlusion=off");
+    return method;
 }
 
 }  // namespace
 
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
-    // an index that becomes complete meanwhile would change the figures
-    if (isDefault) return database + ".(index=on" + (binOptions.empty() ? "" : "," + binOptions) + ").analyticbin";
-    std::string parameters = "method=" + loaderMethod;
-    if (usesBins()) {
-        parameters += ",index=on";
-        // the last item of a key counts
-        if (usesHorizon) parameters += ",horizon=declared";
-        if (!binOptions.empty()) parameters += "," + binOptions;
-        if (!usesHorizon) parameters += ",horizon=off";
-        parameters += usesEdges ? ",edges=on" : ",edges=off";
-        parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
-    }
-    return database + ".(" + parameters + (usesRivals() ? ").binrival" : ").analyticbin");
-}
-
-bool CullMethod::usesRivals() const {
-    return isOneOf(kPeerBases, loaderMethod);
+    const std::string options = usesBins && !binOptions.empty() ? "," + binOptions : std::string();
+    return database + ".(" + before + options + after + ")." + loader;
 }
 
 CullMethod cullMethodFromName(const std::string& name) {
-    if (name == kOracleMethod) {
-        CullMethod oracle = cullMethodFromName(kReplayedMethod);
-        oracle.name = name;
-        oracle.replaysVerdicts = true;
-        return oracle;
-    }
-    if (isPeer(name) && !kArePeersBuilt)
-        throw UsageError("--methods: \"" + name + "\" is for comparison; build with OSGANALYTICBIN_RESEARCH=ON");
     CullMethod method;
+    if (name == kReferenceMethod || name == "sphere" || name == "cluster")
+        method = stockMethod(name);
+    else if (name == kDefaultMethod)
+        method.before = "index=on";  // one that becomes complete meanwhile would change the figures
+    else
+        method = binMethod(name == kOracleMethod ? kReplayedMethod : name);
     method.name = name;
-    method.cullsNothing = name == kReferenceMethod;
-    // stock OSG, "cluster" with what a builder of databases gives it
-    if (method.cullsNothing || name == "sphere" || name == "cluster") {
-        method.loaderMethod = method.cullsNothing ? "none" : "sphere";
-        method.clusters = name == "cluster" ? Clusters::Fill : Clusters::Remove;
-        return method;
-    }
-    method.isDefault = name == kDefaultMethod;
-    if (method.isDefault) {
-        method.loaderMethod = name;
-        method.usesHorizon = method.usesEdges = method.usesOcclusion = true;
-        return method;
-    }
-    std::string base = name;
-    method.usesOcclusion = takeSuffix(base, "+occlusion");
-    method.usesEdges = takeSuffix(base, "+edges");
-    method.usesHorizon = takeSuffix(base, "+horizon");
-    if (isOneOf(kBinBases, base) || isOneOf(kPeerBases, base)) method.loaderMethod = base;
-    // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
-    const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
-    if (!method.loaderMethod.empty() && makesSense) return method;
-    throw UsageError(
-        "--methods: unknown method \"" + name +
-        "\"; use none, sphere, cluster, bins, oracle, all, or box, orientedbox, corners, paper, "
-        "quadratic or exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with "
-        "+horizon, also +occlusion");
+    method.replaysVerdicts = name == kOracleMethod;
+    return method;
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {
@@ -131,8 +101,9 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
     for (const std::string& name : names) {
         if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
-        for (const char* const one : kAll)
-            if (name == kAllMethods && (kArePeersBuilt || !isPeer(one))) add(one);
+        std::istringstream all(name == kAllMethods ? kAll : "");
+        for (std::string one; all >> one;)
+            if (kArePeersBuilt || !isPeer(one)) add(one);
     }
     return methods;
 }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "ClusterRemover.h"
+#include "FileWatch.h"
 
 #include <string>
 #include <vector>
@@ -14,25 +14,18 @@ namespace osgAnalyticBin::bench {
 /// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
-    /// What the pseudo-loader analyticbin is asked for, or binrival for another's rule.
-    std::string loaderMethod;
-    bool usesHorizon = false;
-    bool usesEdges = false;
-    /// Whether terrain hides terrain.
-    bool usesOcclusion = false;
-    /// Whether bins have the options that they have by default.
-    bool isDefault = false;
+    /// Of the pseudo-loader: analyticbin, or binrival (research/rivals) for another's rule.
+    std::string loader = "analyticbin";
+    /// What the pseudo-loader is told before and after the user's options; the last item of a key counts.
+    std::string before, after;
+    /// Whether the user's options count.
+    bool usesBins = true;
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
     Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.
     bool cullsNothing = false;
     /// Whether what the bins decide at a pose is repeated without tests.
     bool replaysVerdicts = false;
-
-    /// Whether the rule is another's: research/rivals.
-    [[nodiscard]] bool usesRivals() const;
-
-    [[nodiscard]] bool usesBins() const { return loaderMethod != "sphere" && loaderMethod != "none"; }
 
     /// The name under which OSG reads the database with this method. `binOptions` go to the bins alone; an altitude of
     /// the horizon in them counts with methods that use the horizon.
@@ -52,8 +45,8 @@ inline constexpr const char* kReplayedMethod = "exact+horizon+edges";
 /// Stands for all methods that are worth comparing and built.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", "bins", "oracle", and box, orientedbox, corners, paper, quadratic and
-/// exact with their suffixes. Throws: Failure for a name that is unknown, not built, or makes no sense.
+/// "none", "sphere", "cluster", "bins", "oracle", and box, orientedbox, corners, paper, quadratic and exact with their
+/// suffixes. Throws: Failure for a name that is unknown, not built, or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
 /// The methods in the order given, each once. The reference comes first, whether it was named or not, and the method

@@ -3,8 +3,6 @@
 
 #include "CullTimer.h"
 
-#include "CacheFlusher.h"
-#include "CullStage.h"
 #include "Interruption.h"
 #include "Quantiles.h"
 
@@ -18,10 +16,11 @@ constexpr int kUntimedPerTurn = 2;
 constexpr int kTimedPerTurn = 3;
 // Touching more than a large cache holds takes longer than hundreds of traversals.
 constexpr int kRoundsForOneCold = 4;
+constexpr std::size_t kMebibyte = 1024 * 1024;
 
 CullTime timeOf(std::vector<double> times) {
     const support::Quantiles quantiles(std::move(times));
-    return {quantiles.at(2, 4), quantiles.at(3, 4) - quantiles.at(1, 4)};
+    return {quantiles.at(1, 4), quantiles.at(2, 4), quantiles.at(3, 4) - quantiles.at(1, 4)};
 }
 
 /// The traversals of one scene, as those of a viewer that stands still.
@@ -33,14 +32,14 @@ public:
           // A file asked for here would be read behind the benchmark's back.
           _requests(new flight::RequestCounter) {}
 
-    // `caches`: null where this turn does not time cold caches.
-    void take(CacheFlusher* caches) {
+    // `memory`: empty where this turn does not time cold caches.
+    void take(std::vector<unsigned char>& memory) {
         // Where a visitor's memory happens to lie costs some percent: each turn has another one.
         flight::CullStage stage(*_requests);
         for (int i = 0; i < kUntimedPerTurn; ++i) (void)nextMs(stage);
         for (int i = 0; i < kTimedPerTurn; ++i) _warm.push_back(nextMs(stage));
-        if (!caches || caches->buffer().empty()) return;
-        caches->flush();
+        if (memory.empty()) return;
+        touchEveryLine(memory);
         _cold.push_back(nextMs(stage));
     }
 
@@ -62,16 +61,20 @@ private:
 
 }  // namespace
 
+void touchEveryLine(std::vector<unsigned char>& memory) {
+    for (std::size_t i = 0; i < memory.size(); i += kCacheLine) ++memory[i];
+}
+
 std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
                                  int flushMebibytes) {
-    CacheFlusher caches(flushMebibytes);
+    std::vector<unsigned char> other(static_cast<std::size_t>(flushMebibytes) * kMebibyte), none;
     std::vector<Turns> stages;
     for (const auto& scene : scenes) stages.emplace_back(*scene);
     for (int round = 0; round < rounds; ++round) {
         support::throwIfStopRequested();
         for (std::size_t i = 0; i < stages.size(); ++i)
-            stages[(i + static_cast<std::size_t>(round)) % stages.size()].take(
-                round % kRoundsForOneCold == 0 ? &caches : nullptr);
+            stages[(i + static_cast<std::size_t>(round)) % stages.size()].take(round % kRoundsForOneCold == 0 ? other
+                                                                                                              : none);
     }
     std::vector<CullTimes> times;
     for (const Turns& stage : stages) times.push_back(stage.result());

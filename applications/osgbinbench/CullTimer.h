@@ -5,6 +5,7 @@
 
 #include "MethodScene.h"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace osgAnalyticBin::bench {
 
 /// How long one cull traversal takes, milliseconds.
 struct CullTime {
+    double firstQuartile = 0.0;
     double median = 0.0;
     double spread = 0.0;  ///< from the first quartile to the third
 };
@@ -25,9 +27,15 @@ struct CullTimes {
 /// Times osgUtil's cull traversal and the sorting of what it finds, of every scene at its present pose. The
 /// scenes take turns, starting with another one each round, so that what slows the machine down slows all of them;
 /// every turn begins with traversals that are not timed, and every fourth, from the first on, ends with one after
-/// `flushMebibytes` of other memory were touched; 0: without that one.
-/// Requires: a viewer at rest. Returns: the times of each scene. Throws: Interrupted.
+/// `flushMebibytes` of other memory were touched, as drawing a frame between two cull traversals does; 0: without that
+/// one. Requires: a viewer at rest. Returns: the times of each scene. Throws: Interrupted.
 [[nodiscard]] std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
                                                int flushMebibytes);
+
+/// Reads and writes every cache line of some memory, which replaces what the processor's data caches hold.
+void touchEveryLine(std::vector<unsigned char>& memory);
+
+/// No processor that runs this has shorter lines.
+inline constexpr std::size_t kCacheLine = 64;
 
 }  // namespace osgAnalyticBin::bench

@@ -69,8 +69,8 @@ std::string settingsOf(const BarChart& chart, const std::vector<PathGroup>& grou
         tics += (i > 0 ? ", \"" : "\"") + groups[i].name + "\" " + std::to_string(i);
     }
     const char* const turned = length * groups.size() > kLabelRoom ? "rotate by 40 right" : "";
-    return set("name", chart.name) + set("names", names) + set("turned", turned) + "tics = '" + tics + "'\n" +
-           set("heading", chart.heading) + set("label", chart.label) + set("numberFormat", chart.numberFormat) +
+    return set("names", names) + set("turned", turned) + "tics = '" + tics + "'\n" + set("heading", chart.heading) +
+           set("label", chart.label) + set("numberFormat", chart.numberFormat) +
            "isRatio = " + std::to_string(chart.isRatio) + "\nhasSpread = " + std::to_string(chart.hasSpread) + "\n";
 }
 
@@ -86,7 +86,9 @@ std::vector<Diagram> diagramsOf(const std::vector<std::string>& poses, const std
     for (const BarChart& chart : kBarCharts) {
         std::vector<Json> rows;
         for (const PathGroup& group : groups) rows.push_back(rowOf(chart, group, shown));
-        diagrams.push_back({chart.name, report::csvOf(rows), settingsOf(chart, groups, shown) + kBarsScript});
+        diagrams.push_back({chart.name, report::csvOf(rows),
+                            report::drawnTwice(chart.name, "size 1000,560 noenhanced font 'sans,12'",
+                                               settingsOf(chart, groups, shown) + kBarsScript)});
     }
     return diagrams;
 }

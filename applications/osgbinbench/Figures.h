@@ -49,13 +49,12 @@ inline constexpr std::array<Column, 21> kPoseColumns{{
     {"cull_cold_spread_ms", "from the first quartile of these times to the third"},
 }};
 
-/// Of a flight with paging live, after "frames".
-inline constexpr std::array<Column, 10> kFlightColumns{{
+/// Of a flight, after "frames".
+inline constexpr std::array<Column, 9> kFlightColumns{{
     {"drawn_tiles", "tiles with a mesh of their own drawn, summed over frames"},
     {"missing_frames", "frames that asked for a file for what they showed: it was too coarse"},
     {"resident_tiles", "tiles in memory after the last frame"},
     {"files_requested", "files read"},
-    {"asked_again", "times that a file was asked for which earlier frames had given up"},
     {"bytes", "bytes of these files"},
     {"complete_ms", "milliseconds from each jump until nothing was missing, summed; 0 without --jumps"},
     {kCullColumn, "milliseconds of all cull traversals and their sorting, summed"},

@@ -72,13 +72,13 @@ private:
     class Turn {
     public:
         explicit Turn(Flight& flight)
-            : _flight(flight), _files(flight._watch.reads->nodeFiles()), _bytes(flight._watch.reads->nodeBytes()) {
+            : _flight(flight), _files(flight._watch.nodeFiles()), _bytes(flight._watch.nodeBytes()) {
             flight._scene.resume();
         }
         ~Turn() {
             _flight._scene.pause();
-            _flight.add("files_requested", _flight._watch.reads->nodeFiles() - _files);
-            _flight.add("bytes", _flight._watch.reads->nodeBytes() - _bytes);
+            _flight.add("files_requested", _flight._watch.nodeFiles() - _files);
+            _flight.add("bytes", _flight._watch.nodeBytes() - _bytes);
         }
         Turn(const Turn&) = delete;
         Turn& operator=(const Turn&) = delete;
@@ -91,9 +91,8 @@ private:
     // Returns: whether something was missing.
     bool fly(const flight::CameraPose& pose) {
         const auto end = Clock::now() + _period;
-        const PagedScene::Frame frame = _scene.flyFrame(pose, _period.count());
+        const MethodScene::Frame frame = _scene.flyFrame(pose, _period.count());
         add("missing_frames", frame.wanted > 0 ? 1U : 0U);
-        add("asked_again", frame.askedAgain);
         _times.push_back(frame.cullMs);
         add("drawn_tiles", _scene.census().tiles.size());
         std::this_thread::sleep_until(end);

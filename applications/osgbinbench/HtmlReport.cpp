@@ -77,16 +77,10 @@ void writePicture(std::ostream& page, const std::string& name, const osg::Image&
          << "\"><figcaption>" << htmlText(name) << "</figcaption></figure>\n";
 }
 
-template <class Columns>
-void addMeanings(TextTable& table, const Columns& columns) {
-    for (const auto& column : columns) table.add({column.name, column.meaning});
-}
-
 TextTable meanings() {
     TextTable table(2);
     table.add({"figure", "meaning"});
-    addMeanings(table, kPoseColumns);
-    addMeanings(table, kFlightColumns);
+    for (const Column& column : kPoseColumns) table.add({column.name, column.meaning});
     return table;
 }
 

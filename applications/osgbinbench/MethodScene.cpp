@@ -11,6 +11,7 @@
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
 
+#include <limits>
 #include <thread>
 
 namespace osgAnalyticBin::bench {
@@ -25,6 +26,15 @@ constexpr double kSettleFrame = 1.0 / 60.0;  // seconds
 constexpr std::chrono::microseconds kLook{100};
 // Before a file that could not be read is asked for once more.
 constexpr std::chrono::milliseconds kBeforeNextTry{20};
+
+// osgViewer finds a scene by its root, wherever it was made; only views make them otherwise.
+class OwnScene : public osgViewer::Scene {
+public:
+    OwnScene() = default;
+
+protected:
+    ~OwnScene() override = default;
+};
 
 class VerticalScaler : public osg::NodeVisitor {
 public:
@@ -54,24 +64,34 @@ void scaleVertically(osg::Node& scene, double scale, const std::string& database
         throw Failure("--vertical-scale: " + database + " has no osgTerrain::Terrain; leave the option out");
 }
 
-osg::CullSettings::CullingMode cullingOf(const CullMethod& method) {
-    return method.cullsNothing ? static_cast<osg::CullSettings::CullingMode>(osg::CullSettings::NO_CULLING)
-                               : kDefaultCulling;
-}
-
 }  // namespace
+
+/// Counts the requests of a frame, and hands them on.
+class MethodScene::Requests final : public flight::RequestCounter {
+public:
+    explicit Requests(osgDB::DatabasePager& pager) : _pager(pager) {}
+
+    void requestNodeFile(const std::string& file, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
+                         osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override {
+        // below tiles that draw nothing, bins request with priorities below zero
+        if (priority >= 0.0F) ++count;
+        _pager.requestNodeFile(file, path, priority, stamp, request, options);
+    }
+
+private:
+    osgDB::DatabasePager& _pager;
+};
 
 MethodScene::MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch)
     : _method(method), _settings(settings), _watch(watch), _camera(new osg::Camera) {
     _camera->setViewport(new osg::Viewport(0, 0, settings.width, settings.height));
-    _camera->setCullingMode(cullingOf(method));
+    _camera->setCullingMode(method.cullsNothing
+                                ? static_cast<osg::CullSettings::CullingMode>(osg::CullSettings::NO_CULLING)
+                                : kDefaultCulling);
     _camera->setLODScale(1.0F);
 }
 
-void MethodScene::forget() {
-    _paged.reset();
-    _camera->removeChildren(0, _camera->getNumChildren());
-}
+MethodScene::~MethodScene() = default;
 
 osg::ref_ptr<osg::Node> MethodScene::read() const {
     const std::string name = _method.sceneName(_settings.database, _settings.binOptions);
@@ -84,37 +104,67 @@ osg::ref_ptr<osg::Node> MethodScene::read() const {
 
 // Bins see to expiry by themselves.
 void MethodScene::treatFiles(const osg::EllipsoidModel* globe) {
-    _watch.remover->setTreatment(_method.clusters, globe);
-    _watch.expiry->setSeconds(_method.usesBins() ? 0.0 : _settings.expiry);
+    _watch.setTreatment(_method.clusters, _method.usesBins ? 0.0 : _settings.expiry, globe);
 }
 
 void MethodScene::load() {
-    forget();
+    _stage.reset();
+    _scene = nullptr;
+    _camera->removeChildren(0, _camera->getNumChildren());
     treatFiles(nullptr);
     const osg::ref_ptr<osg::Node> root = read();
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
     _camera->addChild(root);
-    _paged.emplace(*root, *_camera);
+    _scene = new OwnScene;
+    _scene->setSceneData(root);
+    _frameStamp = new osg::FrameStamp;
+    _update = new osgUtil::UpdateVisitor;
+    _update->setFrameStamp(_frameStamp);
+    _requests = new Requests(pager());
+    _stage.emplace(*_requests);
 }
 
 void MethodScene::resume() {
     treatFiles(_globe.ellipsoid);
-    _paged->resume();
+    pager().setDatabasePagerThreadPause(false);
+}
+
+void MethodScene::pause() {
+    pager().setDatabasePagerThreadPause(true);
+    while (isThreadBusy()) std::this_thread::sleep_for(kLook);
+}
+
+MethodScene::Frame MethodScene::step(double seconds) {
+    _frameStamp->setFrameNumber(_frameStamp->getFrameNumber() + 1);
+    _frameStamp->setReferenceTime(_frameStamp->getReferenceTime() + seconds);
+    _frameStamp->setSimulationTime(_frameStamp->getReferenceTime());
+    _update->reset();
+    _update->setTraversalNumber(_frameStamp->getFrameNumber());
+    _scene->updateSceneGraph(*_update);
+    // The traversals that follow must not find bounds to compute.
+    (void)_scene->getSceneData()->getBound();
+    pager().signalBeginFrame(_frameStamp);
+    _requests->count = 0;
+    const double cullMs = _stage->cull(*_camera, *_frameStamp);
+    pager().signalEndFrame();
+    return {cullMs, _requests->count};
 }
 
 void MethodScene::settle(const flight::CameraPose& pose) {
     // What a pose is charged with must not depend on what the pager threw away.
-    _paged->keepEverything();
+    pager().setTargetMaximumNumberOfPageLOD(std::numeric_limits<unsigned int>::max());
     const auto begin = std::chrono::steady_clock::now();
     setPose(pose);
     for (int quietFrames = 0; quietFrames < kQuietFrames;) {
-        _paged->forgetFrames();
-        const PagedScene::Frame frame = _paged->step(kSettleFrame);
+        // each frame is culled as the first of its visitor: nothing that an earlier one found out counts
+        _stage.emplace(*_requests);
+        const Frame frame = step(kSettleFrame);
         awaitFiles(pose, begin);
-        quietFrames = frame.wanted == 0 && !_paged->hasFilesToMerge() ? quietFrames + 1 : 0;
-        if (frame.wanted > 0 && !_paged->hasFilesToMerge()) std::this_thread::sleep_for(kBeforeNextTry);
+        const bool hasFilesToMerge = pager().requiresUpdateSceneGraph();
+        quietFrames = frame.wanted == 0 && !hasFilesToMerge ? quietFrames + 1 : 0;
+        if (frame.wanted > 0 && !hasFilesToMerge) std::this_thread::sleep_for(kBeforeNextTry);
     }
 }
 
@@ -128,17 +178,25 @@ void MethodScene::awaitFiles(const flight::CameraPose& pose, std::chrono::steady
         support::throwIfStopRequested();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
         if (passed.count() > _settings.timeout) throw lateAt(pose);
-        if (_paged->isReading()) std::this_thread::sleep_for(kLook);
-    } while (_paged->isReading());
+        if (isReading()) std::this_thread::sleep_for(kLook);
+    } while (isReading());
 }
 
-void MethodScene::setPose(const flight::CameraPose& pose) {
-    flight::placeCamera(*_camera, pose, _globe);
-}
-
-PagedScene::Frame MethodScene::flyFrame(const flight::CameraPose& pose, double seconds) {
+MethodScene::Frame MethodScene::flyFrame(const flight::CameraPose& pose, double seconds) {
     setPose(pose);
-    return _paged->step(seconds);
+    return step(seconds);
+}
+
+bool MethodScene::isThreadBusy() const {
+    for (unsigned int i = 0; i < pager().getNumDatabaseThreads(); ++i)
+        if (pager().getDatabaseThread(i)->getActive()) return true;
+    return false;
+}
+
+// A thread becomes active before it takes a file from the list; files read count as read when they wait for being
+// merged.
+bool MethodScene::isReading() const {
+    return pager().getFileRequestListSize() > 0 || isThreadBusy();
 }
 
 }  // namespace osgAnalyticBin::bench

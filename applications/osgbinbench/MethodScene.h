@@ -5,37 +5,36 @@
 
 #include "CameraPath.h"
 #include "CameraView.h"
-#include "ClusterRemover.h"
 #include "CullMethod.h"
+#include "CullStage.h"
 #include "Failure.h"
-#include "PagedScene.h"
-#include "ReadCounter.h"
+#include "FileWatch.h"
 #include "Settings.h"
 #include "TileCensus.h"
 
+#include <osgUtil/UpdateVisitor>
+#include <osgViewer/Scene>
+
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 namespace osgAnalyticBin::bench {
 
-/// Counts and treats what is read for whichever scene is being shown; made once, before the first file is read.
-struct FileWatch {
-    FileWatch() = default;
-    /// A globe may come from a plugin, which the Registry unloads before its callbacks are gone.
-    ~FileWatch() { remover->setTreatment(Clusters::Keep); }
-    FileWatch(const FileWatch&) = delete;
-    FileWatch& operator=(const FileWatch&) = delete;
-
-    osg::ref_ptr<ClusterRemover> remover = ClusterRemover::install();
-    osg::ref_ptr<ExpiryRaiser> expiry = ExpiryRaiser::install();
-    osg::ref_ptr<flight::ReadCounter> reads = flight::ReadCounter::install();
-};
-
-/// A database with a pager of its own, culled by one method. Nothing is drawn here.
+/// A database with a pager and a clock of its own, culled by one method, and taken from frame to frame without drawing:
+/// what has been read is merged, the graph is updated, then culled, and what is missing is asked for. So no frame is
+/// late because drawing it took long, and time stands still while other scenes have their turn.
 /// Scenes take turns in reading files: only the one that was loaded or resumed last does.
 class MethodScene {
 public:
+    /// What one frame's cull traversal did.
+    struct Frame {
+        double cullMs = 0.0;
+        std::uint64_t wanted = 0;  ///< files asked for: not loaded yet
+    };
+
     MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch);
+    ~MethodScene();
 
     MethodScene(const MethodScene&) = delete;
     MethodScene& operator=(const MethodScene&) = delete;
@@ -44,9 +43,10 @@ public:
     /// Throws: Failure when it cannot be read or is empty.
     void load();
 
-    /// Takes its turn after another scene had its own, or gives it up. Requires: load().
+    /// Takes its turn after another scene had its own, or gives it up: then the pager's threads are held when the file
+    /// that is being read has been read. Requires: load().
     void resume();
-    void pause() { _paged->pause(); }
+    void pause();
 
     /// Stands at a pose until every file that is wanted there has been read and merged. All files that one frame asks
     /// for are merged before the next frame asks for more, so that what is read depends on nothing but the pose and
@@ -55,36 +55,45 @@ public:
     void settle(const flight::CameraPose& pose);
 
     /// One frame from a pose, `seconds` after the last one, wherever the pager is. Requires: as settle().
-    PagedScene::Frame flyFrame(const flight::CameraPose& pose, double seconds);
+    Frame flyFrame(const flight::CameraPose& pose, double seconds);
 
     /// The view of the camera. Requires: load().
-    void setPose(const flight::CameraPose& pose);
+    void setPose(const flight::CameraPose& pose) { flight::placeCamera(*_camera, pose, _globe); }
 
     /// What to throw when files are still missing at a pose after the timeout.
     [[nodiscard]] support::Failure lateAt(const flight::CameraPose& pose) const;
 
     /// What a cull traversal at the pose last set does.
-    [[nodiscard]] flight::Census census() { return flight::TileCensus::take(*_camera, _paged->frameStamp()); }
+    [[nodiscard]] flight::Census census() { return flight::TileCensus::take(*_camera, *_frameStamp); }
 
     [[nodiscard]] const CullMethod& method() const { return _method; }
     [[nodiscard]] osg::Node& root() { return *_camera->getChild(0); }
     /// A camera for culling off the record: it has the scene, the view and the method's settings, and no window.
     [[nodiscard]] osg::Camera& camera() { return *_camera; }
-    [[nodiscard]] osg::FrameStamp& frameStamp() { return _paged->frameStamp(); }
+    [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
     [[nodiscard]] const flight::Globe& globe() const { return _globe; }
 
 private:
-    void forget();
+    class Requests;
+
     void treatFiles(const osg::EllipsoidModel* globe);
     void awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> read() const;
+    Frame step(double seconds);
+    [[nodiscard]] osgDB::DatabasePager& pager() const { return *_scene->getDatabasePager(); }
+    [[nodiscard]] bool isThreadBusy() const;
+    [[nodiscard]] bool isReading() const;
 
-    CullMethod _method;
-    const Settings& _settings;
+    const CullMethod _method;
+    const Settings _settings;
     FileWatch& _watch;
-    osg::ref_ptr<osg::Camera> _camera;
-    std::optional<PagedScene> _paged;
+    const osg::ref_ptr<osg::Camera> _camera;
     flight::Globe _globe;
+    osg::ref_ptr<osgViewer::Scene> _scene;
+    osg::ref_ptr<osg::FrameStamp> _frameStamp;
+    osg::ref_ptr<osgUtil::UpdateVisitor> _update;
+    osg::ref_ptr<Requests> _requests;
+    std::optional<flight::CullStage> _stage;
 };
 
 /// How cameras cull here unless a method wants otherwise: everything but small features.

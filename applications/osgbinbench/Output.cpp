@@ -136,7 +136,7 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                   const std::vector<MethodFigures>& methods, const std::vector<MethodFigures>& live) {
+                   const std::vector<MethodFigures>& methods) {
     const bool isFlight = poses.empty();
     Json json = headOf(settings, !isFlight ? "poses" : settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
     if (!isFlight) json["poses"] = poses.size();
@@ -146,7 +146,6 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
         path["poses"] = group.poses.size();
         path["methods"] = sumsOf(methods, group);
     }
-    if (!live.empty()) json["live"] = {{"frames", live.front().rows.front()["frames"]}, {"methods", sumsOf(live)}};
     if (!isFlight) json["pose_names"] = poses;
     for (const MethodFigures& method : methods)
         if (!isFlight) json["by_pose"][method.method] = byPose(method);

@@ -21,11 +21,9 @@ namespace osgAnalyticBin::bench {
 
 /// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
 /// by name, with "methods" as above over the poses of one path, "by_pose", by method and column, what was measured at
-/// each of "pose_names", and "live", the same of the flight after the poses, unless that is empty. "interrupted" is
-/// there after Ctrl-C: what was measured until then.
+/// each of "pose_names". "interrupted" is there after Ctrl-C: what was measured until then.
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                                 const std::vector<MethodFigures>& methods,
-                                 const std::vector<MethodFigures>& live = {});
+                                 const std::vector<MethodFigures>& methods);
 
 /// Sums for people, with times over those of "oracle" where that was measured, then their ratios to "sphere" and
 /// "cluster" where these were flown, then the most telling sums path by path, if there are several.

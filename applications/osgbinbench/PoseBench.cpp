@@ -8,6 +8,7 @@
 #include "Interruption.h"
 #include "PictureDifference.h"
 #include "ProgressLine.h"
+#include "TilePainter.h"
 #include "VerdictReplay.h"
 
 #include <osgDB/WriteFile>
@@ -53,8 +54,7 @@ PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& me
     : _settings(settings),
       _watch(watch),
       _viewer(settings.width, settings.height, settings.threading),
-      _binScene(binMethod(), settings, watch),
-      _painter(_viewer) {
+      _binScene(binMethod(), settings, watch) {
     for (const CullMethod& method : methods) _scenes.push_back(std::make_unique<MethodScene>(method, settings, watch));
 }
 
@@ -80,17 +80,17 @@ std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>&
 PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& pose) {
     scene.load();
     Visit visit;
-    const std::uint64_t files = _watch.reads->nodeFiles();
-    const std::uint64_t bytes = _watch.reads->nodeBytes();
+    const std::uint64_t files = _watch.nodeFiles();
+    const std::uint64_t bytes = _watch.nodeBytes();
     scene.settle(pose);
     // whatever its picture asks for is not read in the next scene's turn
     scene.pause();
-    visit.files = _watch.reads->nodeFiles() - files;
-    visit.bytes = _watch.reads->nodeBytes() - bytes;
+    visit.files = _watch.nodeFiles() - files;
+    visit.bytes = _watch.nodeBytes() - bytes;
     if (scene.method().replaysVerdicts) replayVerdicts(scene.camera(), scene.frameStamp());
     visit.census = scene.census();
     visit.residentTiles = flight::residentTiles(scene.root());
-    visit.picture = pictureOf(scene);
+    visit.picture = _viewer.pictureOf(scene.root(), scene.camera(), scene.camera().getCullingMode());
     if (!_settings.pictures.empty()) savePicture(*visit.picture, scene.method().name, pose.name);
     return visit;
 }
@@ -102,14 +102,6 @@ void PoseBench::checkReplays(const std::vector<Visit>& visits, const std::string
         if (method.name == kReplayedMethod) original = &visits[i].census;
         if (method.replaysVerdicts) requireSameTiles(visits[i].census, *original, pose);
     }
-}
-
-osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
-    _viewer.show(scene.root(), scene.camera().getCullingMode());
-    _viewer.setView(scene.camera());
-    osg::ref_ptr<osg::Image> picture = _viewer.picture();
-    _viewer.rest();
-    return picture;
 }
 
 void PoseBench::learnBins(const flight::CameraPose& pose) {
@@ -131,7 +123,7 @@ std::vector<report::Json> PoseBench::measure(const flight::CameraPose& pose) {
     MethodScene& view = *_scenes.front();
     learnBins(pose);
     const NeededTiles needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
-    const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
+    const auto visible = visiblePixels(_viewer, reference.census.tiles, view.camera());
     const std::vector<CullTimes> times = cullTimes(_scenes, _settings.repeats, _settings.flush);
 
     std::vector<report::Json> rows;

@@ -9,7 +9,6 @@
 #include "Figures.h"
 #include "MethodScene.h"
 #include "Settings.h"
-#include "TilePainter.h"
 #include "TileTruth.h"
 
 #include <osg/Image>
@@ -53,7 +52,6 @@ private:
     [[nodiscard]] Visit visit(MethodScene& scene, const flight::CameraPose& pose);
     void checkReplays(const std::vector<Visit>& visits, const std::string& pose) const;
     void learnBins(const flight::CameraPose& pose);
-    [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(MethodScene& scene);
     [[nodiscard]] std::vector<report::Json> measure(const flight::CameraPose& pose);
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
 
@@ -64,7 +62,6 @@ private:
     /// All tiles of a pose with their bins; what it has loaded it keeps for the next pose.
     MethodScene _binScene;
     bool _isBinSceneLoaded = false;
-    TilePainter _painter;
     TileTruth _truth;
     std::vector<Picture> _pictures;
 };

@@ -14,9 +14,12 @@
 
 #include <osgAnalyticBin/CullOptions.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <unistd.h>
 
 namespace osgAnalyticBin::bench {
 
@@ -47,6 +50,17 @@ void takeSize(const std::string& text, Settings& settings) {
                          std::to_string(kLargestPicture) + ", for example 1280x720");
     settings.width = width;
     settings.height = height;
+}
+
+// In virtual machines sysconf() counts the caches of processors that this machine does not have; the kernel knows.
+long lastLevelKibibytes() {
+    long kibibytes = 0;
+    for (int level = 0; level < 8; ++level) {
+        std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(level) + "/size");
+        long size = 0;
+        if (file >> size) kibibytes = std::max(kibibytes, size);
+    }
+    return kibibytes > 0 ? kibibytes : sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024;
 }
 
 // Seconds; 0: OSG's own rule.
@@ -90,16 +104,13 @@ std::string footer() {
         "terrain that hides terrain while that pays (occlusion=auto); --options changes them.\n"
         "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
-        "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
-        "--frames nothing but that. With --jumps the camera stands still at each pose instead. Methods take turns of "
-        "50 frames each; these are culled, and not drawn. What leaves "
+        "With --frames the path is flown continuously, every method once, while files are being loaded; with --jumps "
         "the\n"
-        "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
+        "camera stands still at each pose instead. Methods take turns of 50 frames each; these are culled, and not\n"
+        "drawn. What leaves the view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
-    return text + linesOf(kPoseColumns) +
-           "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
-           linesOf(kFlightColumns) + "\nThe same with --draw, over three flights of each method but none:\n" +
-           linesOf(kDrawnColumns) +
+    return text + linesOf(kPoseColumns) + "\nThe same with --frames and --jumps:\n" + linesOf(kFlightColumns) +
+           "\nThe same with --draw, over three flights of each method but none:\n" + linesOf(kDrawnColumns) +
            "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
@@ -152,8 +163,6 @@ void declare(support::CommandLine& line, Settings& settings, Words& words) {
         "--flush", settings.flush, 0, 65536,
         "MiB that are touched before each cull with cold caches\n(default twice the last-level cache, 64 at least; "
         "0: no such culls)");
-    line.add("--live", settings.live, 0, 100000,
-             "frames from pose to pose of the flight after the poses\n(default 10, 0: no flight)");
     line.add("--frames", settings.frames, 1, 1000000, "only fly continuously, that many frames in all");
     line.add("--draw", settings.draw,
              "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
@@ -208,6 +217,11 @@ void check(const Settings& settings) {
 }
 
 }  // namespace
+
+int defaultFlush() {
+    constexpr int kLeast = 64;
+    return std::max(kLeast, static_cast<int>(2 * lastLevelKibibytes() / 1024));
+}
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     support::CommandLine line("osgbinbench",

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "CacheFlusher.h"
-
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osgViewer/Viewer>
@@ -13,6 +11,9 @@
 #include <vector>
 
 namespace osgAnalyticBin::bench {
+
+/// MiB: twice the last-level cache of the first processor, 64 at least.
+[[nodiscard]] int defaultFlush();
 
 /// What the command line asks for.
 struct Settings {
@@ -30,15 +31,14 @@ struct Settings {
     int width = 1280;
     int height = 720;
     osgViewer::ViewerBase::ThreadingModel threading = osgViewer::ViewerBase::SingleThreaded;
-    int repeats = 40;                              ///< rounds in which every method's culling is timed
-    int flush = CacheFlusher::defaultMebibytes();  ///< touched before each cull with cold caches; 0: none of these
-    int live = 10;                                 ///< frames from pose to pose of the flight after the poses; 0: none
-    int frames = 0;                                ///< of the continuous flight alone; 0: stop at every pose first
-    bool draw = false;                             ///< the frames of the continuous flight, in a viewer
-    bool jumps = false;                            ///< from pose to pose with the pager running, and nothing else
-    double frameRate = 60.0;                       ///< frames a second of the continuous flight, at most
-    double expiry = CullOptions::kDefaultExpiry;   ///< seconds, of methods without bins in flight; 0: OSG's own rule
-    double timeout = 120.0;                        ///< seconds that one pose may take to load and draw
+    int repeats = 40;                             ///< rounds in which every method's culling is timed
+    int flush = defaultFlush();                   ///< touched before each cull with cold caches; 0: none of these
+    int frames = 0;                               ///< of the continuous flight alone; 0: stop at every pose first
+    bool draw = false;                            ///< the frames of the continuous flight, in a viewer
+    bool jumps = false;                           ///< from pose to pose with the pager running, and nothing else
+    double frameRate = 60.0;                      ///< frames a second of the continuous flight, at most
+    double expiry = CullOptions::kDefaultExpiry;  ///< seconds, of methods without bins in flight; 0: OSG's own rule
+    double timeout = 120.0;                       ///< seconds that one pose may take to load and draw
 };
 
 /// Reads the command line; --help is answered at once.

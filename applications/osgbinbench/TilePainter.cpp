@@ -5,6 +5,7 @@
 
 #include <osg/ClearNode>
 #include <osg/MatrixTransform>
+#include <osg/Program>
 
 namespace osgAnalyticBin::bench {
 
@@ -26,36 +27,14 @@ std::uint32_t numberOf(const unsigned char* colour) {
     return colour[0] | static_cast<std::uint32_t>(colour[1]) << 8U | static_cast<std::uint32_t>(colour[2]) << 16U;
 }
 
-}  // namespace
-
-TilePainter::TilePainter(BenchViewer& viewer) : _viewer(viewer), _flat(new osg::Program) {
-    _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
-    _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
-}
-
-std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vector<flight::DrawnTile>& tiles,
-                                                                const osg::Camera& view) {
-    const osg::ref_ptr<osg::Group> scene = paintedScene(tiles);
-    _viewer.show(*scene, osg::CullSettings::NO_CULLING);
-    _viewer.setView(view);
-    const osg::ref_ptr<osg::Image> picture = _viewer.picture();
-    _viewer.rest();
-    std::map<std::string, std::uint64_t> pixels;
-    for (int row = 0; row < picture->t(); ++row) {
-        for (int column = 0; column < picture->s(); ++column) {
-            const std::uint32_t number =
-                numberOf(picture->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row)));
-            if (number > 0 && number <= tiles.size()) ++pixels[tiles[number - 1].key];
-        }
-    }
-    return pixels;
-}
-
-osg::ref_ptr<osg::Group> TilePainter::paintedScene(const std::vector<flight::DrawnTile>& tiles) const {
+osg::ref_ptr<osg::Group> paintedScene(const std::vector<flight::DrawnTile>& tiles) {
     // A node of its own, because the viewer's background is blue.
     osg::ref_ptr<osg::ClearNode> scene = new osg::ClearNode;
     scene->setClearColor(osg::Vec4(0.0F, 0.0F, 0.0F, 0.0F));
-    scene->getOrCreateStateSet()->setAttributeAndModes(_flat, kOverride);
+    const osg::ref_ptr<osg::Program> flat = new osg::Program;
+    flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
+    flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
+    scene->getOrCreateStateSet()->setAttributeAndModes(flat, kOverride);
     scene->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     std::uint32_t number = 0;
     for (const flight::DrawnTile& tile : tiles) {
@@ -68,6 +47,23 @@ osg::ref_ptr<osg::Group> TilePainter::paintedScene(const std::vector<flight::Dra
         }
     }
     return scene;
+}
+
+}  // namespace
+
+std::map<std::string, std::uint64_t> visiblePixels(BenchViewer& viewer, const std::vector<flight::DrawnTile>& tiles,
+                                                   const osg::Camera& view) {
+    const osg::ref_ptr<osg::Image> picture =
+        viewer.pictureOf(*paintedScene(tiles), view, osg::CullSettings::NO_CULLING);
+    std::map<std::string, std::uint64_t> pixels;
+    for (int row = 0; row < picture->t(); ++row) {
+        for (int column = 0; column < picture->s(); ++column) {
+            const std::uint32_t number =
+                numberOf(picture->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row)));
+            if (number > 0 && number <= tiles.size()) ++pixels[tiles[number - 1].key];
+        }
+    }
+    return pixels;
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -3,7 +3,7 @@
 
 #include "VerdictReplay.h"
 
-#include "ClusterRemover.h"
+#include "ClusterCallbacks.h"
 #include "CullMethod.h"
 #include "Failure.h"
 

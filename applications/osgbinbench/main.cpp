@@ -18,7 +18,6 @@
 
 #include <osg/Notify>
 
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <malloc.h>
@@ -48,10 +47,6 @@ std::vector<std::string> namesOf(const std::vector<CameraPose>& path) {
     std::vector<std::string> names;
     for (const CameraPose& pose : path) names.push_back(pose.name);
     return names;
-}
-
-std::vector<CameraPose> livePath(const std::vector<CameraPose>& path, int framesPerLeg) {
-    return continuousPath(path, 1 + framesPerLeg * std::max(1, static_cast<int>(path.size()) - 1));
 }
 
 std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
@@ -96,14 +91,9 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
     const auto figures = bench.run(path);
     path.resize(figures.front().rows.size());
     const std::vector<std::string> poses = namesOf(path);
-    std::vector<MethodFigures> live;
-    if (settings.live > 0 && !stopRequested)
-        live = flyContinuously(settings, methods, livePath(path, settings.live), watch);
-    write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures, live));
+    write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures));
     const std::string partial = notePartial(poses.size(), planned);
     HtmlReport report{settings.database, partial, adviceOf(poses, figures), tablesOf(poses, figures), {}, {}};
-    if (!live.empty())
-        for (auto& table : tablesOf({}, live)) report.tables.push_back(std::move(table));
     print(std::cout, report.tables);
     for (const std::string& sentence : report.sentences)
         std::cout << (&sentence == &report.sentences.front() ? "\n" : "") << sentence << '\n';
@@ -119,13 +109,15 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
 
 void measure(const Settings& settings) {
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
-    FileWatch watch;
-    const std::vector<CameraPose> path = pathOf(settings, watch);
-    if (settings.draw) return tell(settings, flyDrawn(settings, methods, continuousPath(path, settings.frames), watch));
-    if (settings.jumps) return tell(settings, jump(settings, methods, path, watch));
+    const osg::ref_ptr<FileWatch> watch = new FileWatch;
+    watch->install();
+    const std::vector<CameraPose> path = pathOf(settings, *watch);
+    if (settings.draw)
+        return tell(settings, flyDrawn(settings, methods, continuousPath(path, settings.frames), *watch));
+    if (settings.jumps) return tell(settings, jump(settings, methods, path, *watch));
     if (settings.frames > 0)
-        return tell(settings, flyContinuously(settings, methods, continuousPath(path, settings.frames), watch));
-    measureAtPoses(settings, methods, path, watch);
+        return tell(settings, flyContinuously(settings, methods, continuousPath(path, settings.frames), *watch));
+    measureAtPoses(settings, methods, path, *watch);
 }
 
 ExitCode run(int argc, char** argv) {

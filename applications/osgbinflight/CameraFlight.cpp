@@ -88,7 +88,8 @@ void CameraFlight::begin(osgViewer::Viewer& viewer) {
     viewer.setCameraManipulator(nullptr);
     prepareCamera(*viewer.getCamera());
     _globe = globeOf(*viewer.getSceneData());
-    _reads = ReadCounter::install();
+    _reads = new ReadCounter;
+    _reads->install();
     arrive();
 }
 

@@ -4,6 +4,7 @@
 #include "ReadCounter.h"
 
 #include <osgDB/FileUtils>
+#include <osgDB/Registry>
 
 #include <filesystem>
 
@@ -20,10 +21,25 @@ std::uint64_t bytesOf(const std::string& fileName, const osgDB::Options* options
 
 }  // namespace
 
-ReadCounter::Result ReadCounter::readNode(const std::string& fileName, const osgDB::Options* options) {
+void ReadCounter::install() {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    _next = registry.getReadFileCallback();
+    // a plain callback does what the Registry does by itself
+    if (!_next) _next = new osgDB::ReadFileCallback;
+    registry.setReadFileCallback(this);
+}
+
+void ReadCounter::uninstall() {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    if (registry.getReadFileCallback() == this) registry.setReadFileCallback(_next);
+}
+
+osgDB::ReaderWriter::ReadResult ReadCounter::readNode(const std::string& fileName, const osgDB::Options* options) {
     ++_nodeFiles;
     _nodeBytes += bytesOf(fileName, options);
-    return ReadInFront::readNode(fileName, options);
+    osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
+    if (result.getNode()) treat(*result.getNode());
+    return result;
 }
 
 }  // namespace osgAnalyticBin::flight

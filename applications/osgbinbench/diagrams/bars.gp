@@ -44,7 +44,7 @@ left(m) = width*(m - 1) - 0.42
 middle(m) = left(m) + width/2
 # numbers where bars are wide enough for them
 numbered = !hasSpread && paths*methods <= 64 ? methods : 0
-draw = 'plot for [m=1:methods] data skip 1 \
+plot for [m=1:methods] data skip 1 \
         using ($0 + middle(m)):(figure(m)):($0 + left(m)):($0 + left(m) + 0.92*width):(base):(figure(m)) \
         with boxxyerror fs solid 0.9 noborder lc rgb word(colours, (m - 1)%7 + 1) title word(names, m), \
     for [m=1:hasSpread ? methods : 0] data skip 1 \
@@ -52,12 +52,4 @@ draw = 'plot for [m=1:methods] data skip 1 \
         with vectors nohead lw 1.5 lc rgb "#222222" notitle, \
     for [m=1:numbered] data skip 1 \
         using ($0 + middle(m)):(isRatio && figure(m) < 1 ? 1 : figure(m)):(sprintf(numberFormat, figure(m))) \
-        with labels rotate by 90 left offset 0,0.3 notitle'
-
-set terminal svg size 1000,560 noenhanced font "sans-serif,14" background rgb "white"
-set output name.".svg"
-@draw
-set terminal pngcairo size 1000,560 noenhanced font "sans,11"
-set output name.".png"
-@draw
-unset output
+        with labels rotate by 90 left offset 0,0.3 notitle

@@ -28,8 +28,8 @@ constexpr const char* kFooter =
     "levels:\n"
     "           tiles tested, kept and drawn, milliseconds of a cull traversal and its sorting.\n"
     "residents  One view, with more and more PagedLODs in memory on the far side of the globe: milliseconds of a cull\n"
-    "           traversal, of an update traversal, and of the DatabasePager's own update, which walks over all\n"
-    "           PagedLODs whenever there are more than its target.\n"
+    "           traversal, and of the DatabasePager's own update, which walks over all PagedLODs whenever there are\n"
+    "           more than its target.\n"
     "memory     Bytes that a tile in memory takes (malloc's own count), and microseconds to make and install it:\n"
     "           without bins, with stored bins that nobody uses, and with those of each method.\n\n"
     "Times are first quartiles: what else the machine does only adds to them; cull_spread_ms is the distance to the\n"
@@ -80,9 +80,11 @@ std::string csvOf(const Json& lists) {
 }
 
 void measure(const Settings& settings) {
-    const auto rowsOf = [&](const char* name, Rows (*series)(const Settings&)) {
+    const osg::ref_ptr<bench::FileWatch> watch = new bench::FileWatch;
+    watch->install();
+    const auto rowsOf = [&](const char* name, Rows (*series)(const Settings&, bench::FileWatch&)) {
         const bool isAsked = std::count(settings.series.begin(), settings.series.end(), name) > 0;
-        return isAsked ? series(settings) : Rows();
+        return isAsked ? series(settings, *watch) : Rows();
     };
     // First, while little has been allocated and freed.
     const Rows memory = rowsOf("memory", measureMemory);

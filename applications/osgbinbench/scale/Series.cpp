@@ -4,15 +4,22 @@
 #include "Series.h"
 
 #include "Angles.h"
-#include "ScaleScene.h"
+#include "CullTimer.h"
+#include "Quantiles.h"
+#include "VerdictReplay.h"
 
+#include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
+#include <osgDB/Options>
+#include <osgDB/ReadFile>
 
+#include <GlobeOptions.h>
 #include <ProceduralTerrain.h>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <deque>
 #include <iostream>
-#include <limits>
 #include <malloc.h>
 #include <memory>
 
@@ -20,13 +27,35 @@ namespace osgAnalyticBin::scale {
 
 namespace {
 
+using bench::CullMethod;
+using bench::FileWatch;
+using bench::MethodScene;
 using flight::CameraPose;
 using report::Diagram;
 using report::Json;
+using support::Failure;
 using support::kRadiansPerDegree;
-using Scenes = std::vector<std::unique_ptr<ScaleScene>>;
+using Scenes = std::vector<std::unique_ptr<MethodScene>>;
+using PagedLods = std::vector<osg::ref_ptr<osg::PagedLOD>>;
 
-// Stops from 10 000 km above the terrain down to where tiles of the deepest level are near enough.
+// A procedural globe, culled by one method without a window.
+std::unique_ptr<MethodScene> makeScene(const CullMethod& method, const globe::GlobeOptions& options, FileWatch& watch) {
+    bench::Settings settings;
+    settings.database = globe::rootFileOf(options);
+    settings.binOptions = "index=off";
+    auto scene = std::make_unique<MethodScene>(method, settings, watch);
+    scene->load();
+    scene->pause();
+    return scene;
+}
+
+void settle(MethodScene& scene, const CameraPose& pose) {
+    scene.resume();
+    scene.settle(pose);
+    scene.pause();
+}
+
+/// Stops from 10 000 km above the terrain down to where tiles of the deepest level are near enough.
 std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     constexpr double kMetresPerDegree = 111195.0;
     constexpr osgbindem::PositionDeg kStart{46.0, 10.0};
@@ -52,60 +81,117 @@ std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     return path;
 }
 
-// The DatabasePager's part of a frame's update, without its threads.
-class PagerUpdate : public osg::NodeVisitor {
+class PagedLodFinder : public osg::NodeVisitor {
 public:
-    explicit PagerUpdate(ScaleScene& scene)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _scene(scene), _pager(new osgDB::DatabasePager) {
-        scene.root().accept(*this);
-        _pager->registerPagedLODs(&scene.root(), scene.frameStamp().getFrameNumber());
-    }
+    explicit PagedLodFinder(osg::Node& node) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { node.accept(*this); }
 
-    // What is loaded is walked over, but not thrown away.
     using osg::NodeVisitor::apply;
     void apply(osg::PagedLOD& node) override {
-        constexpr double kNever = 1e9;
-        for (unsigned int i = 0; i < node.getNumMinimumExpiryTimes(); ++i) node.setMinimumExpiryTime(i, kNever);
+        found.emplace_back(&node);
         traverse(node);
     }
 
-    void setTarget(unsigned int pagedLods) { _pager->setTargetMaximumNumberOfPageLOD(pagedLods); }
-
-    [[nodiscard]] double ms() {
-        const Stopwatch watch;
-        _pager->updateSceneGraph(_scene.frameStamp());
-        return watch.ms();
-    }
-
-private:
-    ScaleScene& _scene;
-    osg::ref_ptr<osgDB::DatabasePager> _pager;
+    PagedLods found;
 };
+
+// Reads the finer children of a PagedLOD and merges them as the DatabasePager does.
+PagedLods loadChildren(osg::PagedLOD& node) {
+    constexpr unsigned int kFiner = 1;
+    const auto* const options = dynamic_cast<const osgDB::Options*>(node.getDatabaseOptions());
+    const osg::ref_ptr<osg::Node> file =
+        osgDB::readRefNodeFile(node.getDatabasePath() + node.getFileName(kFiner), options);
+    if (!file) throw Failure(node.getFileName(kFiner) + ": cannot be made");
+    node.addChild(file);
+    return PagedLodFinder(*file).found;
+}
+
+// Loads tiles of the hemisphere away from the eye, coarse ones first, until there are that many PagedLODs in all.
+// Requires: the scene stands at the pose. Returns: how many there were, and are. Throws: Failure when the globe has no
+// more.
+std::pair<std::size_t, std::size_t> fill(MethodScene& scene, const CameraPose& pose, std::size_t pagedLods) {
+    const osg::Vec3d eye = osg::Matrixd::inverse(scene.camera().getViewMatrix()).getTrans();
+    const PagedLods loaded = PagedLodFinder(scene.root()).found;
+    std::deque<osg::ref_ptr<osg::PagedLOD>> frontier;
+    for (const auto& node : loaded)
+        if (osg::Vec3d(node->getCenter()) * eye < 0.0 && node->getNumChildren() == 1) frontier.push_back(node);
+    std::size_t count = loaded.size();
+    while (count < pagedLods) {
+        if (frontier.empty())
+            throw Failure("--residents: a globe of this depth has no " + std::to_string(pagedLods) +
+                          " PagedLODs away from the eye");
+        const PagedLods children = loadChildren(*frontier.front());
+        frontier.pop_front();
+        frontier.insert(frontier.end(), children.begin(), children.end());
+        count += children.size();
+    }
+    // what was loaded is noticed by the next cull traversal, which has the next update traversal look after it
+    for (int frame = 0; frame < 2; ++frame) (void)scene.flyFrame(pose, 1.0 / 60.0);
+    return {loaded.size(), count};
+}
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// Milliseconds, first quartile, of the DatabasePager's part of a frame's update, without its threads: of one that has
+// all PagedLODs above its target. What is loaded is walked over, but not thrown away.
+double pagerMs(MethodScene& scene, int rounds) {
+    constexpr double kNever = 1e9;
+    for (const auto& node : PagedLodFinder(scene.root()).found)
+        for (unsigned int i = 0; i < node->getNumMinimumExpiryTimes(); ++i) node->setMinimumExpiryTime(i, kNever);
+    const osg::ref_ptr<osgDB::DatabasePager> pager = new osgDB::DatabasePager;
+    pager->registerPagedLODs(&scene.root(), scene.frameStamp().getFrameNumber());
+    pager->setTargetMaximumNumberOfPageLOD(0);
+    std::vector<double> times;
+    for (int round = 0; round < rounds; ++round) {
+        const auto begin = Clock::now();
+        pager->updateSceneGraph(scene.frameStamp());
+        times.push_back(msSince(begin));
+    }
+    return support::Quantiles(times).at(1, 4);
+}
 
 double allocatedBytes() {
     const struct mallinfo2 info = mallinfo2();
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-Json memoryOf(const std::string& name, const bench::CullMethod& method, int tiles, bool storesBins) {
+Json memoryOf(const std::string& name, const CullMethod& method, int tiles, bool storesBins, FileWatch& watch) {
     std::cerr << "osgbinbench scale: memory, " << name << std::endl;
+    const CameraPose far{"far", {0.0, 0.0, 1e8}, {0.0, 0.0, 0.0}, 1.0, 1.0, 1e9};
     globe::GlobeOptions options;
     options.bins = storesBins;
-    bench::FileWatch files;
-    ScaleScene scene(method, options, files);
-    scene.settle({"far", {0.0, 0.0, 1e8}, {0.0, 0.0, 0.0}, 1.0, 1.0, 1e9});
+    const auto scene = makeScene(method, options, watch);
+    settle(*scene, far);
     // What is loaded once, and the start tiles, do not count.
-    const std::size_t before = scene.pagedLods();
+    const std::size_t start = PagedLodFinder(scene->root()).found.size();
     const double bytes = allocatedBytes();
-    const Stopwatch watch;
-    scene.fill(before + static_cast<std::size_t>(tiles));
-    const double us = 1000.0 * watch.ms();
+    const auto begin = Clock::now();
+    const auto [before, after] = fill(*scene, far, start + static_cast<std::size_t>(tiles));
+    const double us = 1000.0 * msSince(begin);
     const double more = allocatedBytes() - bytes;
-    const auto loaded = static_cast<double>(scene.pagedLods() - before);
+    const auto loaded = static_cast<double>(after - before);
     return {{"method", name},
-            {"tiles", scene.pagedLods() - before},
+            {"tiles", after - before},
             {"bytes_per_tile", more / loaded},
             {"load_us_per_tile", us / loaded}};
+}
+
+void addCounts(MethodScene& scene, Json& row) {
+    const flight::Census census = scene.census();
+    for (const auto& [column, count] :
+         {std::pair("tested_tiles", census.tested), {"kept_tiles", census.kept}, {"drawn_tiles", census.drawn}})
+        row[column] = row.value(column, std::uint64_t{0}) + count;
+}
+
+void addTimes(const Scenes& scenes, int rounds, Rows& rows) {
+    const std::vector<bench::CullTimes> times = bench::cullTimes(scenes, rounds, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const auto& [column, ms] :
+             {std::pair("cull_ms", times[i].warm.firstQuartile), {"cull_spread_ms", times[i].warm.spread}})
+            rows[i][column] = rows[i].value(column, 0.0) + ms;
 }
 
 Diagram diagramOf(const std::string& name, const std::string& commands, const std::vector<Json>& rows) {
@@ -131,8 +217,8 @@ Diagram lines(const std::string& name, const std::string& commands, const Rows& 
 
 }  // namespace
 
-std::vector<bench::CullMethod> Settings::methods() const {
-    std::vector<bench::CullMethod> methods;
+std::vector<CullMethod> Settings::methods() const {
+    std::vector<CullMethod> methods;
     for (const std::string& name : methodNames) {
         const bool isOracle = name == bench::kOracleMethod;
         methods.push_back(bench::cullMethodFromName(isOracle ? bench::kDefaultMethod : name));
@@ -142,8 +228,7 @@ std::vector<bench::CullMethod> Settings::methods() const {
     return methods;
 }
 
-Rows measureDepth(const Settings& settings) {
-    bench::FileWatch files;
+Rows measureDepth(const Settings& settings, FileWatch& watch) {
     Scenes scenes;
     Rows rows;
     std::vector<std::vector<CameraPose>> paths;
@@ -151,36 +236,32 @@ Rows measureDepth(const Settings& settings) {
         globe::GlobeOptions options;
         options.levels = levels;
         options.cells = settings.cells;
-        for (const bench::CullMethod& method : settings.methods()) {
-            scenes.push_back(std::make_unique<ScaleScene>(method, options, files));
+        for (const CullMethod& method : settings.methods()) {
+            scenes.push_back(makeScene(method, options, watch));
             paths.push_back(descent(options, settings.poses));
             rows.push_back({{"levels", levels}, {"method", method.name}});
         }
     }
-    std::vector<Timing> sums(scenes.size());
     for (int pose = 0; pose < settings.poses; ++pose) {
         std::cerr << "osgbinbench scale: depth, pose " << pose + 1 << " of " << settings.poses << std::endl;
         for (std::size_t i = 0; i < scenes.size(); ++i) {
-            scenes[i]->settle(paths[i][static_cast<std::size_t>(pose)]);
-            if (scenes[i]->method().replaysVerdicts) scenes[i]->replay();
-            scenes[i]->addCounts(rows[i]);
+            MethodScene& scene = *scenes[i];
+            const bool isReplayed = scene.method().replaysVerdicts;
+            // a replay serves one view alone
+            if (isReplayed && pose > 0) scene.load();
+            settle(scene, paths[i][static_cast<std::size_t>(pose)]);
+            if (isReplayed) bench::replayVerdicts(scene.camera(), scene.frameStamp());
+            addCounts(scene, rows[i]);
         }
-        const auto times = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.cullMs(); });
-        for (std::size_t i = 0; i < scenes.size(); ++i) {
-            sums[i].ms += times[i].ms;
-            sums[i].spread += times[i].spread;
-        }
+        addTimes(scenes, settings.rounds, rows);
     }
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        const double drawn = std::max(1.0, rows[i]["drawn_tiles"].get<double>());
-        rows[i]["cull_ms"] = sums[i].ms;
-        rows[i]["cull_spread_ms"] = sums[i].spread;
-        rows[i]["cull_us_per_drawn_tile"] = 1000.0 * sums[i].ms / drawn;
-    }
+    for (Json& row : rows)
+        row["cull_us_per_drawn_tile"] =
+            1000.0 * row["cull_ms"].get<double>() / std::max(1.0, row["drawn_tiles"].get<double>());
     return rows;
 }
 
-Rows measureResidents(const Settings& settings) {
+Rows measureResidents(const Settings& settings, FileWatch& watch) {
     // From 1000 km up, obliquely.
     const CameraPose view{"resident",
                           {46.0 * kRadiansPerDegree, 10.0 * kRadiansPerDegree, 1e6},
@@ -192,48 +273,33 @@ Rows measureResidents(const Settings& settings) {
     globe::GlobeOptions options;
     options.levels = 9;
     options.cells = 2;
-    bench::FileWatch files;
     Scenes scenes;
-    std::vector<std::unique_ptr<PagerUpdate>> pagers;
     Rows rows;
     for (const int residents : settings.residents) {
         std::cerr << "osgbinbench scale: loading " << residents << " PagedLODs" << std::endl;
-        for (const bench::CullMethod& method : settings.methods()) {
-            ScaleScene& scene = *scenes.emplace_back(std::make_unique<ScaleScene>(method, options, files));
-            scene.settle(view);
-            scene.fill(static_cast<std::size_t>(residents));
-            pagers.push_back(std::make_unique<PagerUpdate>(scene));
-            rows.push_back({{"paged_lods", scene.pagedLods()}, {"method", method.name}});
-            if (method.replaysVerdicts) scene.replay();
-            scene.addCounts(rows.back());
+        for (const CullMethod& method : settings.methods()) {
+            MethodScene& scene = *scenes.emplace_back(makeScene(method, options, watch));
+            settle(scene, view);
+            const std::size_t pagedLods = fill(scene, view, static_cast<std::size_t>(residents)).second;
+            rows.push_back({{"paged_lods", pagedLods}, {"method", method.name}});
+            if (method.replaysVerdicts) bench::replayVerdicts(scene.camera(), scene.frameStamp());
+            addCounts(scene, rows.back());
         }
     }
     std::cerr << "osgbinbench scale: residents, timing" << std::endl;
-    const auto cull = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.cullMs(); });
-    const auto update = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.updateMs(); });
-    const auto pagerMs = [&](unsigned int target) {
-        for (const auto& pager : pagers) pager->setTarget(target);
-        return measuredInTurns(pagers, settings.rounds, [](PagerUpdate& pager) { return pager.ms(); });
-    };
-    const auto idle = pagerMs(std::numeric_limits<unsigned int>::max());
-    const auto full = pagerMs(0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i]["cull_ms"] = cull[i].ms;
-        rows[i]["cull_spread_ms"] = cull[i].spread;
-        rows[i]["update_ms"] = update[i].ms;
-        rows[i]["pager_below_target_ms"] = idle[i].ms;
-        rows[i]["pager_above_target_ms"] = full[i].ms;
-    }
+    addTimes(scenes, settings.rounds, rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i]["pager_above_target_ms"] = pagerMs(*scenes[i], settings.rounds);
     return rows;
 }
 
-Rows measureMemory(const Settings& settings) {
-    const bench::CullMethod sphere = bench::cullMethodFromName("sphere");
-    Rows rows{memoryOf("no bins", sphere, settings.memoryTiles, false),
-              memoryOf("stored bins", sphere, settings.memoryTiles, true)};
-    for (const bench::CullMethod& method : settings.methods())
+Rows measureMemory(const Settings& settings, FileWatch& watch) {
+    const CullMethod sphere = bench::cullMethodFromName("sphere");
+    Rows rows{memoryOf("no bins", sphere, settings.memoryTiles, false, watch),
+              memoryOf("stored bins", sphere, settings.memoryTiles, true, watch)};
+    for (const CullMethod& method : settings.methods())
         if (method.name != sphere.name && !method.replaysVerdicts)
-            rows.push_back(memoryOf(method.name, method, settings.memoryTiles, true));
+            rows.push_back(memoryOf(method.name, method, settings.memoryTiles, true, watch));
     return rows;
 }
 

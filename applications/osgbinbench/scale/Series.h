@@ -35,13 +35,13 @@ struct Settings {
 using Rows = std::vector<report::Json>;
 
 /// Each method on flights down globes of several depths; sums over the poses. Throws: Failure.
-[[nodiscard]] Rows measureDepth(const Settings& settings);
-/// Each method with several numbers of PagedLODs in memory; also the DatabasePager's update with fewer PagedLODs than
-/// its target, and with more, none of which may go yet. Throws: Failure.
-[[nodiscard]] Rows measureResidents(const Settings& settings);
+[[nodiscard]] Rows measureDepth(const Settings& settings, bench::FileWatch& watch);
+/// Each method with several numbers of PagedLODs in memory; also the DatabasePager's update with more PagedLODs than
+/// its target, none of which may go yet. Throws: Failure.
+[[nodiscard]] Rows measureResidents(const Settings& settings, bench::FileWatch& watch);
 /// What tiles in memory take by what is installed on them, and the time of making and installing one, in the pager's
 /// thread as a rule. Throws: Failure.
-[[nodiscard]] Rows measureMemory(const Settings& settings);
+[[nodiscard]] Rows measureMemory(const Settings& settings, bench::FileWatch& watch);
 
 /// Depth (time for each drawn tile), flight (time of the whole flight), residents and memory; of a series without rows
 /// none.

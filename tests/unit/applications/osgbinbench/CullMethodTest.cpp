@@ -99,8 +99,7 @@ TEST(CullMethod, BinsAreThoseThatUsersHave) {
     defaults.index = IndexUse::On;  // what becomes complete meanwhile would change the figures
     EXPECT_EQ(optionsOf("bins"), defaults);
     EXPECT_EQ(optionsOf("bins", "skirts=all").skirts, SkirtUse::All);
-    EXPECT_TRUE(cullMethodFromName("bins").usesBins());
-    EXPECT_FALSE(cullMethodFromName("bins").usesRivals());
+    EXPECT_TRUE(cullMethodFromName("bins").usesBins);
 }
 
 TEST(CullMethod, NamesThePseudoLoader) {

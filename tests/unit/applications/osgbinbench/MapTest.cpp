@@ -24,8 +24,8 @@ TEST(FlatMaps, AreFlownAroundWithoutAPath) {
     const std::string database = folder / "map.osgb", json = folder / "sums.json";
     ASSERT_TRUE(osgDB::writeNodeFile(*map.build(folder.path()), database));
     const test::Outcome outcome =
-        test::runBench(test::quoted(database) + " --size 160x90 --repeats 1 --flush 0 --live 0 --json " +
-                       test::quoted(json) + " --report " + test::quoted(folder / "page.html"));
+        test::runBench(test::quoted(database) + " --size 160x90 --repeats 1 --flush 0 --json " + test::quoted(json) +
+                       " --report " + test::quoted(folder / "page.html"));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json paths = test::jsonFile(json)["paths"];
     ASSERT_EQ(paths.size(), 4U);

@@ -85,16 +85,6 @@ TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
     EXPECT_EQ(one.str().find("sums by path"), std::string::npos);
 }
 
-TEST(Output, JsonHoldsTheLiveFlightBesideTheSums) {
-    const report::Json row{{"frames", 7}, {"files_requested", 5}, {"cull_ms", 2.0}};
-    const MethodFigures flight{"sphere", {row}};
-    const auto json = nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods(), {flight}));
-    EXPECT_EQ(json["live"]["frames"], 7);
-    EXPECT_EQ(json["live"]["methods"]["sphere"]["files_requested"], 5);
-    EXPECT_DOUBLE_EQ(json["live"]["methods"]["sphere"]["cull_ms"].get<double>(), 2.0);
-    EXPECT_FALSE(nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods())).contains("live"));
-}
-
 TEST(Output, CsvHasALineForEachPoseAndMethod) {
     std::istringstream lines(csvOf({"a", "b"}, twoMethods()));
     std::vector<std::string> begins;

@@ -22,10 +22,10 @@ using report::Diagram;
 using report::plot;
 using support::Failure;
 
-const std::vector<std::string> kPoses{"down_1", "down_2", "far_1"};
+const std::vector<std::string> kPlotPoses{"down_1", "down_2", "far_1"};
 
 MethodFigures figuresOf(const std::string& method, std::uint64_t drawn, double cullMs) {
-    MethodFigures figures{method, emptyRows(kPoses.size())};
+    MethodFigures figures{method, emptyRows(kPlotPoses.size())};
     for (report::Json& pose : figures.rows) {
         pose["truth_tiles"] = 4;
         pose["drawn_tiles"] = drawn;
@@ -37,7 +37,8 @@ MethodFigures figuresOf(const std::string& method, std::uint64_t drawn, double c
 }
 
 std::vector<Diagram> diagrams() {
-    return diagramsOf(kPoses, {figuresOf("none", 40, 2.0), figuresOf("sphere", 8, 1.0), figuresOf("a+b_c", 4, 0.5)});
+    return diagramsOf(kPlotPoses,
+                      {figuresOf("none", 40, 2.0), figuresOf("sphere", 8, 1.0), figuresOf("a+b_c", 4, 0.5)});
 }
 
 const Diagram& named(const std::vector<Diagram>& diagrams, const std::string& name) {
@@ -78,7 +79,7 @@ TEST(Plot, DataHoldRatiosAndMeansByPathWithoutTheReference) {
 }
 
 TEST(Plot, ShowsTheReferenceWhereItIsAlone) {
-    EXPECT_EQ(named(diagramsOf(kPoses, {figuresOf("none", 8, 1.0)}), "drawn").data, "path,none\ndown,2\nfar,2\n");
+    EXPECT_EQ(named(diagramsOf(kPlotPoses, {figuresOf("none", 8, 1.0)}), "drawn").data, "path,none\ndown,2\nfar,2\n");
 }
 
 TEST(Plot, DrawsEveryDiagramTwice) {

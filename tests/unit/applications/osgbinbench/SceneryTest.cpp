@@ -62,10 +62,10 @@ TEST(Scenery, IsDrawnAsWithoutCullingAndNoMoreOftenThanWithSpheres) {
     const std::string database = test::writeSceneryDatabase(folder.path());
     ASSERT_FALSE(database.empty());
     const std::string json = folder / "sums.json", csv = folder / "poses.csv";
-    const test::Outcome outcome = test::runBench(
-        test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", randomPath())) +
-        " --methods sphere,quadratic+horizon+edges --size 320x180 --repeats 1 --flush 0 --live 0 --json " +
-        test::quoted(json) + " --csv " + test::quoted(csv));
+    const test::Outcome outcome =
+        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", randomPath())) +
+                       " --methods sphere,quadratic+horizon+edges --size 320x180 --repeats 1 --flush 0 --json " +
+                       test::quoted(json) + " --csv " + test::quoted(csv));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(json)["methods"];
     const nlohmann::json& bins = methods["quadratic+horizon+edges"];

@@ -48,7 +48,7 @@ TEST(Settings, MethodsWithoutBinsKeepTilesAsLongAsBinsUnlessToldOtherwise) {
 }
 
 TEST(Settings, FlushesMoreThanTheCachesHoldUnlessToldOtherwise) {
-    EXPECT_EQ(settingsFrom({}).flush, CacheFlusher::defaultMebibytes());
+    EXPECT_EQ(settingsFrom({}).flush, defaultFlush());
     EXPECT_EQ(settingsFrom({"--flush", "0"}).flush, 0);
 }
 

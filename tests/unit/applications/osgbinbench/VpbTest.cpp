@@ -39,9 +39,9 @@ protected:
 TEST_P(VpbSample, StockMethodsDifferInWhatTheyDrawAndAskFor) {
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
-    const test::Outcome outcome = test::runBench(
-        test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
-        " --methods sphere,cluster --size 320x240 --repeats 1 --flush 0 --live 0 --json " + test::quoted(file));
+    const test::Outcome outcome =
+        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
+                       " --methods sphere,cluster --size 320x240 --repeats 1 --flush 0 --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];
     for (const char* const key : {"drawn_tiles", "triangles", "paged_lods", "files_requested", "bytes"}) {
@@ -101,7 +101,7 @@ TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
     const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
     const test::Outcome outcome = test::runBench(
         test::quoted(database) + " --path " + test::quoted(path) + " --methods exact+horizon+edges --size 480x270" +
-        " --repeats 1 --flush 0 --live 0 --threading " + GetParam().threading + " --vertical-scale " +
+        " --repeats 1 --flush 0 --threading " + GetParam().threading + " --vertical-scale " +
         std::to_string(GetParam().scale) + " --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json sums = test::jsonFile(file);
@@ -132,7 +132,7 @@ TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
     const test::Outcome outcome =
         test::runBench(test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
                        " --vertical-scale 10 --methods cluster,exact+horizon+edges --size 640x360 --repeats 1 "
-                       "--flush 0 --live 0 --json " +
+                       "--flush 0 --json " +
                        test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];

@@ -3,7 +3,8 @@
 //
 // Cluster culling callbacks made from the meshes of tiles. Oracle: the numbers worked out by hand for a tile on a ball.
 
-#include "ClusterRemover.h"
+#include "ClusterCallbacks.h"
+#include "FileWatch.h"
 #include "PlacedMesh.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -14,7 +15,6 @@
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
-#include <osgDB/Registry>
 #include <osgDB/WriteFile>
 #include <osgUtil/CullVisitor>
 
@@ -134,8 +134,8 @@ TEST(ClusterFiller, GivesEveryTileOfAFileItsOwn) {
     EXPECT_NEAR(first->getRadius(), expected->radius, 10.0);
     EXPECT_NEAR(first->getControlPoint().x(), expected->controlPoint.x, 10.0);
     EXPECT_EQ(clusterOn(*root->getChild(0)->asGroup()->getChild(0)), nullptr) << "one test a tile";
-    EXPECT_EQ(countClusterCallbacks(*root), 2U);
     EXPECT_EQ(fillClusterCallbacks(*root, nullptr), 0U) << "it has them now";
+    EXPECT_EQ(removeClusterCallbacks(*root), 2U);
 }
 
 TEST(ClusterFiller, LeavesFilesThatHaveTheirOwn) {
@@ -199,17 +199,17 @@ TEST(ClusterFiller, CullsTheFarSideOfAFileThatIsRead) {
     for (const double west : {0.0, 20.0, 60.0, 90.0, 120.0, 175.0}) root->addChild(tile(0.0, west, "absent.osgb"));
     const std::string file = folder / "scene.osgt";
     ASSERT_TRUE(osgDB::writeNodeFile(*root, file));
-    const osg::ref_ptr<osgDB::ReadFileCallback> before = osgDB::Registry::instance()->getReadFileCallback();
-    const osg::ref_ptr<ClusterRemover> remover = ClusterRemover::install();
+    const osg::ref_ptr<FileWatch> watch = new FileWatch;
+    watch->install();
     const auto drawnWith = [&](Clusters treatment) {
-        remover->setTreatment(treatment);
+        watch->setTreatment(treatment, 0.0);
         return drawn(*osgDB::readRefNodeFile(file));
     };
     EXPECT_EQ(drawnWith(Clusters::Remove), 6U);
     EXPECT_EQ(drawnWith(Clusters::Keep), 6U);
     // the horizon is 41 degrees away
     EXPECT_EQ(drawnWith(Clusters::Fill), 2U);
-    osgDB::Registry::instance()->setReadFileCallback(before);
+    watch->uninstall();
 }
 
 }  // namespace
