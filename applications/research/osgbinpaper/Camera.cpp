@@ -69,6 +69,18 @@ std::array<glm::dvec3, 4> Camera::edges() const noexcept {
     return {forward - x - y, forward + x - y, forward + x + y, forward - x + y};
 }
 
+CameraAxes cameraAxes(const core::Geodetic& position, double azimuth, double pitch) noexcept {
+    const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
+    const glm::dvec3 axis(0.0, 0.0, 1.0);
+    const glm::dvec3 east = glm::cross(axis, radial);
+    const glm::dvec3 north = std::cos(position.latitude) * axis - std::sin(position.latitude) * radial;
+    const glm::dvec3 zenith = std::cos(position.latitude) * radial + std::sin(position.latitude) * axis;
+    const glm::dvec3 level = std::sin(azimuth) * east + std::cos(azimuth) * north;
+    const glm::dvec3 forward = std::cos(pitch) * level + std::sin(pitch) * zenith;
+    const glm::dvec3 right = glm::normalize(glm::cross(level, zenith));
+    return {forward, right, glm::cross(right, forward)};
+}
+
 Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg, double pitchDeg,
                 double fovDeg) noexcept {
     const CameraAxes axes = cameraAxes(position, azimuthDeg * kRadiansPerDegree, -pitchDeg * kRadiansPerDegree);

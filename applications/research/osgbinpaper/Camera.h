@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Terrain.h"
-#include "ViewKind.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
@@ -33,12 +32,28 @@ struct Camera {
     [[nodiscard]] double tangent() const noexcept;
 };
 
+/// A kind of view: cameras are drawn at random within its limits.
+struct ViewKind {
+    const char* name;
+    double fovDeg;
+    double lowest, highest;     // metres above the ground
+    double pitchFrom, pitchTo;  // degrees below the horizontal
+};
+
 inline constexpr std::array<ViewKind, 6> kViewKinds{{{"low, fov 60", 60.0, 2e2, 5e3, -5.0, 10.0},
                                                      {"low, fov 10", 10.0, 2e2, 5e3, -2.0, 5.0},
                                                      {"oblique, fov 60", 60.0, 1e4, 5e5, 15.0, 60.0},
                                                      {"oblique, fov 10", 10.0, 1e4, 5e5, 15.0, 60.0},
                                                      {"high, fov 60", 60.0, 1e6, 1e7, 60.0, 90.0},
                                                      {"high, fov 10", 10.0, 1e6, 1e7, 60.0, 90.0}}};
+
+/// The axes of a camera, in ECEF.
+struct CameraAxes {
+    glm::dvec3 forward, right, up;
+};
+
+/// Looks along an azimuth, clockwise from north, so much above the horizontal; radians.
+[[nodiscard]] CameraAxes cameraAxes(const core::Geodetic& position, double azimuth, double pitch) noexcept;
 
 /// A camera above a position, looking along an azimuth (degrees, clockwise from north), so much below the horizontal.
 [[nodiscard]] Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg,

@@ -7,7 +7,6 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -73,78 +72,51 @@ Axes eastNorthUp(const core::Ellipsoid& ellipsoid, const core::Geodetic& positio
             glm::dvec3(cosine * radial.x, cosine * radial.y, sine)};
 }
 
-// `radius`: half of what the box measures across the plane. A number that is not finite decides nothing.
-core::Side sideOf(double distance, double radius, double slack, const core::Plane& plane) {
+}  // namespace
+
+Box::Box(const Axes& axes, const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
+    : _axes(axes) {
+    const Extents extents = extentsAlong(axes, ellipsoid, bin, margin);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto k = static_cast<glm::length_t>(i);
+        _center += extents.center[k] * axes[i];
+        _halfAxes[i] = extents.halfSize[k] * axes[i];
+    }
+    _slack = kRounding * extents.reach;
+    _reach = extents.reach;
+}
+
+core::Side Box::classify(const core::Plane& plane) const noexcept {
+    // a number that is not finite decides nothing
     if (!core::isUsable(plane)) return core::Side::Straddling;
-    const double reach = radius + slack + kOffsetRounding * std::abs(plane.offset);
+    const double radius = std::abs(glm::dot(plane.normal, _halfAxes[0])) +
+                          std::abs(glm::dot(plane.normal, _halfAxes[1])) +
+                          std::abs(glm::dot(plane.normal, _halfAxes[2]));
+    const double reach = radius + _slack + kOffsetRounding * std::abs(plane.offset);
+    const double distance = plane.distance(_center);
     if (distance + reach < 0.0) return core::Side::Outside;
     return distance - reach >= 0.0 ? core::Side::Inside : core::Side::Straddling;
 }
 
 // Faces 0 to 2 are the lower ends of the axes, 3 to 5 the upper ones.
-core::Plane faceOf(const glm::dvec3& axis, std::size_t i, double center, double halfSize, double slack) {
+core::Plane Box::face(std::size_t i) const noexcept {
+    const glm::dvec3& axis = _axes[i % 3];
     const double sign = i < 3 ? 1.0 : -1.0;
-    return {sign * axis, halfSize - sign * center + slack};
+    return {sign * axis, glm::dot(axis, _halfAxes[i % 3]) - sign * glm::dot(axis, _center) + _slack};
 }
 
-template <class Box>
-bool isBeyondAFace(const Box& box, const FrustumHull& frustum) {
+BoxBin::BoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
+    : Box(ecefAxes(), ellipsoid, bin, margin) {}
+
+OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
+    : Box(eastNorthUp(ellipsoid, bin.center()), ellipsoid, bin, margin) {}
+
+bool isSeparated(const Box& box, const FrustumHull& frustum) noexcept {
     if (frustum.cornerCount() == 0) return false;
     for (std::size_t i = 0; i < Box::kFaces; ++i) {
         if (frustum.isBehind(box.face(i), box.reach())) return true;
     }
     return false;
-}
-
-}  // namespace
-
-BoxBin::BoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept {
-    const Extents extents = extentsAlong(ecefAxes(), ellipsoid, bin, margin);
-    _center = extents.center;
-    _halfSize = extents.halfSize;
-    _slack = kRounding * extents.reach;
-    _reach = extents.reach;
-}
-
-core::Side BoxBin::classify(const core::Plane& plane) const noexcept {
-    return sideOf(plane.distance(_center), glm::dot(glm::abs(plane.normal), _halfSize), _slack, plane);
-}
-
-core::Plane BoxBin::face(std::size_t i) const noexcept {
-    const auto k = static_cast<glm::length_t>(i % 3);
-    return faceOf(ecefAxes()[i % 3], i, _center[k], _halfSize[k], _slack);
-}
-
-OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
-    : _center(0.0), _axes(eastNorthUp(ellipsoid, bin.center())) {
-    const Extents extents = extentsAlong(_axes, ellipsoid, bin, margin);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto k = static_cast<glm::length_t>(i);
-        _center += extents.center[k] * _axes[i];
-        _halfAxes[i] = extents.halfSize[k] * _axes[i];
-    }
-    _slack = kRounding * extents.reach;
-    _reach = extents.reach;
-}
-
-core::Side OrientedBoxBin::classify(const core::Plane& plane) const noexcept {
-    const double radius = std::abs(glm::dot(plane.normal, _halfAxes[0])) +
-                          std::abs(glm::dot(plane.normal, _halfAxes[1])) +
-                          std::abs(glm::dot(plane.normal, _halfAxes[2]));
-    return sideOf(plane.distance(_center), radius, _slack, plane);
-}
-
-core::Plane OrientedBoxBin::face(std::size_t i) const noexcept {
-    const glm::dvec3& axis = _axes[i % 3];
-    return faceOf(axis, i, glm::dot(axis, _center), glm::dot(axis, _halfAxes[i % 3]), _slack);
-}
-
-bool isSeparated(const BoxBin& box, const FrustumHull& frustum) noexcept {
-    return isBeyondAFace(box, frustum);
-}
-
-bool isSeparated(const OrientedBoxBin& box, const FrustumHull& frustum) noexcept {
-    return isBeyondAFace(box, frustum);
 }
 
 }  // namespace osgAnalyticBin::rivals

@@ -83,11 +83,12 @@ RivalCullCallback::RivalCullCallback(AnalyticBinCullCallback& tile, const RivalO
       _isInEcef(tile.getLocalToEcef().isIdentity()),
       _fromEcef(osg::Matrixd::inverse(tile.getLocalToEcef())) {
     const core::Ellipsoid ellipsoid = tile.ellipsoid();
-    if (_testsEdges && !isBox() && core::ExactGeodeticBin::holds(ellipsoid, _shown.bin()))
+    const bool isBox = std::holds_alternative<Box>(_bin);
+    if (_testsEdges && !isBox && core::ExactGeodeticBin::holds(ellipsoid, _shown.bin()))
         _exact.emplace(ellipsoid, _shown.bin(), _shown.margin());
     if (options.usesHorizon && !ellipsoid.isPlane()) {
         _horizon.emplace(ellipsoid, _shown.bin(), _shown.margin());
-        if (isBox()) _horizonPoint.emplace(*_horizon);
+        if (isBox) _horizonPoint.emplace(*_horizon);
     }
     // a tile that is culled is out of view, or should be
     setTraversesAlways(*this);
@@ -119,10 +120,6 @@ bool RivalCullCallback::isHidden(osg::NodeVisitor& visitor) const {
     return eye && (_horizonPoint ? _horizonPoint->isHiddenFrom(*eye) : eye->hides(*_horizon));
 }
 
-bool RivalCullCallback::isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const {
-    return _exact && core::isSeparated(*_exact, planes, planes.size(), undecided);
-}
-
 core::Side RivalCullCallback::test(osg::NodeVisitor& visitor, osg::CullStack& cullStack,
                                    core::PlaneMask& undecided) const {
     const osg::Polytope::PlaneList& list = cullStack.getCurrentCullingSet().getFrustum().getPlaneList();
@@ -137,14 +134,10 @@ core::Side RivalCullCallback::test(osg::NodeVisitor& visitor, osg::CullStack& cu
     const core::Side side = std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _bin);
     if (side == core::Side::Outside || isHidden(visitor)) return core::Side::Outside;
     if (side == core::Side::Inside || !_testsEdges) return side;
-    const auto isBeyondAFace = [&](const auto& box) {
-        return _isInEcef ? isSeparated(box, frustum.hull()) : isSeparated(box, FrustumHull(own, own.size()));
-    };
-    const auto* const box = std::get_if<BoxBin>(&_bin);
-    const auto* const orientedBox = std::get_if<OrientedBoxBin>(&_bin);
-    const bool isApart = box           ? isBeyondAFace(*box)
-                         : orientedBox ? isBeyondAFace(*orientedBox)
-                                       : isBeyondAnEdge(planes, undecided);
+    const auto* const box = std::get_if<Box>(&_bin);
+    const bool isApart = !box        ? _exact && core::isSeparated(*_exact, planes, planes.size(), undecided)
+                         : _isInEcef ? isSeparated(*box, frustum.hull())
+                                     : isSeparated(*box, FrustumHull(own, own.size()));
     return isApart ? core::Side::Outside : side;
 }
 

@@ -6,7 +6,7 @@
 #include "BoxBins.h"
 #include "ComparisonBins.h"
 #include "HorizonPoint.h"
-#include "RivalOptions.h"
+#include "InstallRivals.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -40,13 +40,11 @@ protected:
     ~RivalCullCallback() override = default;
 
 private:
-    using RivalBin = std::variant<PaperBin, CornersBin, BoxBin, OrientedBoxBin>;
+    using RivalBin = std::variant<PaperBin, CornersBin, Box>;
 
     [[nodiscard]] static RivalBin rivalBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid,
                                            const RivalOptions& options);
-    [[nodiscard]] bool isBox() const { return _bin.index() > 1; }
     [[nodiscard]] bool isHidden(osg::NodeVisitor& visitor) const;
-    [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
     [[nodiscard]] core::Side test(osg::NodeVisitor& visitor, osg::CullStack& cullStack,
                                   core::PlaneMask& undecided) const;
 
