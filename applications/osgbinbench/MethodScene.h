@@ -6,7 +6,7 @@
 #include "CameraPath.h"
 #include "CameraView.h"
 #include "CullMethod.h"
-#include "CullStage.h"
+#include "CullWatcher.h"
 #include "Failure.h"
 #include "FileWatch.h"
 #include "Settings.h"

@@ -4,7 +4,6 @@
 #include "Compare.h"
 #include "ContinuousPath.h"
 #include "DefaultPath.h"
-#include "Failure.h"
 #include "FlightBench.h"
 #include "HtmlReport.h"
 #include "Interruption.h"
@@ -25,7 +24,6 @@
 namespace {
 
 using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kFailed;
 using osgAnalyticBin::support::kInterrupted;
 using osgAnalyticBin::support::kSucceeded;
@@ -51,10 +49,7 @@ std::vector<std::string> namesOf(const std::vector<CameraPose>& path) {
 
 std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
     if (settings.paths.empty()) return defaultPath(settings, watch);
-    std::string error;
-    auto path = osgAnalyticBin::flight::readCameraPathFiles(settings.paths, error);
-    if (!path) throw Failure(error);
-    return *path;
+    return osgAnalyticBin::flight::readCameraPathFiles(settings.paths);
 }
 
 void write(const Settings& settings, const std::string& csv, const std::string& json) {

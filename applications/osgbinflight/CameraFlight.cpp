@@ -4,6 +4,7 @@
 #include "CameraFlight.h"
 
 #include "CsvTable.h"
+#include "Failure.h"
 #include "Quantiles.h"
 #include "ThreadingName.h"
 #include "TileCensus.h"
@@ -190,8 +191,11 @@ bool CameraFlight::isTimeOver(osgViewer::Viewer& viewer, const std::string& wait
 }
 
 void CameraFlight::land(osgViewer::Viewer& viewer) {
-    std::string error;
-    if (!writePoseTable(_options.out, _records, remarkOn(viewer, _options), error)) return fail(viewer, error);
+    try {
+        writePoseTable(_options.out, _records, remarkOn(viewer, _options));
+    } catch (const support::Failure& failure) {
+        return fail(viewer, failure.what());
+    }
     OSG_NOTICE << "binflight: " << _records.size() << " poses in " << _options.out << std::endl;
     stop(viewer);
 }

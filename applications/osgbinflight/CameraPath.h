@@ -6,7 +6,6 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,29 +33,20 @@ struct CameraPose {
 /// time (seconds, growing; without it each pose is one second after the one before, from 0), rollDeg and eyeRight (both
 /// 0 without). Angles are in degrees, the rest in metres, altitudes above the ellipsoid. For a map eyeX, eyeY, lookX
 /// and lookY, in map units, stand for longitudes and latitudes (core::Ellipsoid::plane()). `#` starts a comment line.
-/// The file name is used in messages only. Returns: at least one pose; nullopt, with one line in `error` that names the
-/// file and the line, when a column is missing or unknown, a number is malformed or out of range, time does not grow, a
-/// name is used twice, or there is no pose.
-[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const std::string& fileName,
-                                                                    std::string& error);
-
-/// Opens and reads a file.
-[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFile(const std::string& fileName,
-                                                                        std::string& error);
+/// The file name is used in messages only. Returns: at least one pose. Throws: Failure that names the file and the
+/// line, when a column is missing or unknown, a number is malformed or out of range, time does not grow, a name is used
+/// twice, or there is no pose.
+[[nodiscard]] std::vector<CameraPose> readCameraPath(std::istream& input, const std::string& fileName);
 
 /// Reads several files, one or more, and joins them to one path: the first pose of each is one second after the last of
-/// the file before.
-/// Returns: nullopt, with one line in `error`, when a file is broken or two share a pose's name.
-[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std::string>& fileNames,
-                                                                         std::string& error);
+/// the file before. Throws: Failure when a file cannot be opened, or is broken, or two share a pose's name.
+[[nodiscard]] std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames);
 
 /// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
 /// a name are flight1, flight2 and so on; `eyeRight` is not written.
 void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path);
 
-/// Replaces a file when the new one is complete. Returns: false, with one line in `error`, when that fails; what was
-/// there before stays.
-[[nodiscard]] bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path,
-                                       std::string& error);
+/// Replaces a file when the new one is complete. Throws: Failure when that fails; what was there before stays.
+void writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path);
 
 }  // namespace osgAnalyticBin::flight

@@ -3,6 +3,8 @@
 
 #include "CsvTable.h"
 
+#include "Failure.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,6 +13,8 @@
 #include <set>
 
 namespace osgAnalyticBin::flight {
+
+using support::Failure;
 
 namespace {
 
@@ -35,13 +39,6 @@ bool nextLine(std::istream& input, std::string& line, std::size_t& number) {
     return false;
 }
 
-std::string repeatedName(const std::vector<std::string>& names) {
-    std::set<std::string> seen;
-    const auto found =
-        std::find_if(names.begin(), names.end(), [&seen](const auto& name) { return !seen.insert(name).second; });
-    return found == names.end() ? std::string() : *found;
-}
-
 }  // namespace
 
 std::optional<std::size_t> CsvTable::column(const std::string& name) const {
@@ -50,29 +47,23 @@ std::optional<std::size_t> CsvTable::column(const std::string& name) const {
     return static_cast<std::size_t>(found - columns.begin());
 }
 
-std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error) {
+CsvTable readCsv(std::istream& input, const std::string& fileName) {
     CsvTable table;
     table.fileName = fileName;
     std::string line;
     std::size_t number = 0;
-    if (!nextLine(input, line, number)) {
-        error = fileName + ": no line that names the columns";
-        return std::nullopt;
-    }
+    if (!nextLine(input, line, number)) throw Failure(fileName + ": no line that names the columns");
     table.columns = cellsOf(line);
-    if (const std::string repeated = repeatedName(table.columns); !repeated.empty()) {
-        error = fileName + ":" + std::to_string(number) + ": column \"" + repeated + "\" stands twice";
-        return std::nullopt;
-    }
+    std::set<std::string> seen;
+    for (const std::string& name : table.columns)
+        if (!seen.insert(name).second)
+            throw Failure(fileName + ":" + std::to_string(number) + ": column \"" + name + "\" stands twice");
     while (nextLine(input, line, number)) {
-        CsvTable::Row row{number, cellsOf(line)};
-        if (row.cells.size() != table.columns.size()) {
-            error = atLine(table, row,
-                           std::to_string(row.cells.size()) + " cells, but the header names " +
-                               std::to_string(table.columns.size()) + " columns");
-            return std::nullopt;
-        }
-        table.rows.push_back(std::move(row));
+        const CsvTable::Row& row = table.rows.emplace_back(CsvTable::Row{number, cellsOf(line)});
+        if (row.cells.size() != table.columns.size())
+            throw Failure(atLine(table, row,
+                                 std::to_string(row.cells.size()) + " cells, but the header names " +
+                                     std::to_string(table.columns.size()) + " columns"));
     }
     return table;
 }

@@ -29,9 +29,9 @@ struct CsvTable {
 };
 
 /// Reads a table; the file name is used in messages only.
-/// Returns: nullopt, with one line in `error` that names the file and the line, when the header is missing or names a
-/// column twice, or when a row has more or fewer cells than the header.
-[[nodiscard]] std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error);
+/// Throws: Failure that names the file and the line, when the header is missing or names a column twice, or when a row
+/// has more or fewer cells than the header.
+[[nodiscard]] CsvTable readCsv(std::istream& input, const std::string& fileName);
 
 /// Returns: "file:line: text", the form of all messages about a line.
 [[nodiscard]] std::string atLine(const CsvTable& table, const CsvTable::Row& row, const std::string& text);

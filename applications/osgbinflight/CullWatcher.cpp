@@ -8,6 +8,8 @@
 
 #include <osg/TriangleIndexFunctor>
 
+#include <chrono>
+
 namespace osgAnalyticBin::flight {
 
 namespace {
@@ -17,15 +19,14 @@ struct CountTriangles {
     void operator()(unsigned int, unsigned int, unsigned int) { ++count; }
 };
 
-}  // namespace
-
+// The steps of osgUtil::SceneView::cullStage() that decide what is drawn, of a visitor that has just been made or
+// reset. Nothing is sorted.
 void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameStamp& frameStamp,
                osgUtil::StateGraph& stateGraph, osgUtil::RenderStage& stage) {
     stage.setViewport(camera.getViewport());
     stage.setCamera(&camera);
     visitor.setStateGraph(&stateGraph);
     visitor.setRenderStage(&stage);
-    stage.setCamera(&camera);
     visitor.setFrameStamp(&frameStamp);
     visitor.setTraversalNumber(frameStamp.getFrameNumber());
     visitor.inheritCullSettings(camera);
@@ -40,6 +41,19 @@ void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameSta
     visitor.popModelViewMatrix();
     visitor.popProjectionMatrix();
     visitor.popViewport();
+}
+
+}  // namespace
+
+double CullStage::cull(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+    _visitor->reset();
+    _stateGraph->clean();
+    _stage->reset();
+    const auto begin = std::chrono::steady_clock::now();
+    cullScene(*_visitor, camera, frameStamp, *_stateGraph, *_stage);
+    _stage->sort();
+    _stateGraph->prune();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
 CullWatcher::CullWatcher() : _wanted(new RequestCounter) {

@@ -24,11 +24,21 @@ public:
     std::uint64_t count = 0;
 };
 
-/// The steps of osgUtil::SceneView::cullStage() that decide what is drawn: traverses a camera's scene with a visitor
-/// that has just been made or reset. Nothing is sorted.
-/// Requires: a camera with a viewport.
-void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameStamp& frameStamp,
-               osgUtil::StateGraph& stateGraph, osgUtil::RenderStage& stage);
+/// What osgUtil::SceneView keeps from frame to frame for its cull stage, without a window.
+class CullStage {
+public:
+    /// `files` takes the requests of PagedLODs.
+    explicit CullStage(osg::NodeVisitor::DatabaseRequestHandler& files) { _visitor->setDatabaseRequestHandler(&files); }
+
+    /// Culls a camera's scene as osgViewer does before it draws, and sorts what is found.
+    /// Requires: a camera with a viewport, and no update traversal meanwhile. Returns: how long it took, milliseconds.
+    double cull(osg::Camera& camera, osg::FrameStamp& frameStamp);
+
+private:
+    osg::ref_ptr<osgUtil::CullVisitor> _visitor = new osgUtil::CullVisitor;
+    osg::ref_ptr<osgUtil::StateGraph> _stateGraph = new osgUtil::StateGraph;
+    osg::ref_ptr<osgUtil::RenderStage> _stage = new osgUtil::RenderStage;
+};
 
 /// Culls a camera's scene once more, off the record: nothing is drawn and no file is asked for, but a derived class
 /// sees what is reached and what is drawn. Because only OSG's own calls are watched, that is alike for every culling

@@ -4,6 +4,7 @@
 #include "ParameterReader.h"
 
 #include "CsvTable.h"
+#include "Failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +14,20 @@ namespace osgAnalyticBin::flight {
 
 namespace {
 
-bool read(const std::vector<Parameter>& known, const std::string& item, bool isUnknownAllowed, std::string& error) {
+void read(const std::vector<Parameter>& known, const std::string& item, bool isUnknownAllowed) {
     const std::size_t equals = item.find('=');
     const std::string key = trimmed(item.substr(0, equals));
     const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
-    std::string allowed;
+    std::string allowed, problem = "unknown";
     for (const Parameter& parameter : known) {
         const std::string text = parameter.text;
         allowed += (allowed.empty() ? "" : ", ") + text;
         if (text.substr(0, text.find('=')) != key) continue;
-        if (parameter.take(value)) return true;
-        error = "malformed";
+        if (parameter.take(value)) return;
+        problem = "malformed";
     }
-    if (error.empty() && isUnknownAllowed) return true;
-    if (error.empty()) error = "unknown";
-    error += " parameter \"" + trimmed(item) + "\"; allowed are " + allowed;
-    return false;
+    if (problem == "unknown" && isUnknownAllowed) return;
+    throw support::Failure(problem + " parameter \"" + trimmed(item) + "\"; allowed are " + allowed);
 }
 
 }  // namespace
@@ -51,22 +50,16 @@ std::function<bool(const std::string&)> wholeInto(int& target, int least, int mo
     };
 }
 
-bool readBracketed(const std::vector<Parameter>& known, const std::string& text, std::string& error) {
-    error.clear();
+void readBracketed(const std::vector<Parameter>& known, const std::string& text) {
     std::istringstream items(text);
-    for (std::string item; std::getline(items, item, ',');)
-        if (!read(known, item, false, error)) return false;
-    return true;
+    for (std::string item; std::getline(items, item, ',');) read(known, item, false);
 }
 
-bool readOptionString(const std::vector<Parameter>& known, const std::string& text, std::string& error) {
-    error.clear();
+void readOptionString(const std::vector<Parameter>& known, const std::string& text) {
     std::string blanks = text;
     std::replace(blanks.begin(), blanks.end(), ',', ' ');
     std::istringstream items(blanks);
-    for (std::string item; items >> item;)
-        if (!read(known, item, true, error)) return false;
-    return true;
+    for (std::string item; items >> item;) read(known, item, true);
 }
 
 }  // namespace osgAnalyticBin::flight

@@ -22,11 +22,11 @@ struct Parameter {
 [[nodiscard]] std::function<bool(const std::string&)> wholeInto(int& target, int least, int most);
 
 /// Reads the parameters in the brackets of a file's name, which are its own, parted by commas.
-/// Returns: false, with one line in `error`, for one that is unknown or malformed.
-bool readBracketed(const std::vector<Parameter>& known, const std::string& text, std::string& error);
+/// Throws: Failure for one that is unknown or malformed.
+void readBracketed(const std::vector<Parameter>& known, const std::string& text);
 
 /// Reads those in an option string, parted by blanks or commas, where words of other plugins may stand too.
-/// Returns: false, with one line in `error`, for one that is malformed.
-bool readOptionString(const std::vector<Parameter>& known, const std::string& text, std::string& error);
+/// Throws: Failure for one that is malformed.
+void readOptionString(const std::vector<Parameter>& known, const std::string& text);
 
 }  // namespace osgAnalyticBin::flight

@@ -45,10 +45,8 @@ std::string textOf(const std::vector<PoseRecord>& records, const std::string& re
 
 }  // namespace
 
-bool writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records, const std::string& remark,
-                    std::string& error) {
-    const std::string file = (std::filesystem::path(folder) / kPoseTableName).string();
-    return support::replaceFile(file, textOf(records, remark), error);
+void writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records, const std::string& remark) {
+    support::writeFile((std::filesystem::path(folder) / kPoseTableName).string(), textOf(records, remark));
 }
 
 }  // namespace osgAnalyticBin::flight

@@ -39,9 +39,7 @@ struct PoseRecord {
 inline constexpr const char* kPoseTableName = "poses.csv";
 
 /// Writes `folder`/poses.csv under a temporary name and renames it when it is complete. `remark` becomes the comment
-/// line at the top.
-/// Returns: false, with one line in `error`, when that fails.
-[[nodiscard]] bool writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records,
-                                  const std::string& remark, std::string& error);
+/// line at the top. Throws: Failure.
+void writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records, const std::string& remark);
 
 }  // namespace osgAnalyticBin::flight

@@ -3,6 +3,7 @@
 
 #include "CameraFlight.h"
 #include "CameraPath.h"
+#include "Failure.h"
 #include "FlightOptions.h"
 
 #include <osgAnalyticBin/NameParameters.h>
@@ -46,14 +47,14 @@ public:
         if (pathFile.empty()) return ReadResult(name.name + ": no such camera path");
 
         FlightOptions flightOptions;
-        std::string error;
         const auto parameters = flightOptions.parameters();
-        if (options && !osgAnalyticBin::flight::readOptionString(parameters, options->getOptionString(), error))
-            return ReadResult(error);
-        if (!osgAnalyticBin::flight::readBracketed(parameters, name.parameters, error)) return ReadResult(error);
-        auto path = osgAnalyticBin::flight::readCameraPathFile(pathFile, error);
-        if (!path) return ReadResult(error);
-        return ReadResult(nodeOf(std::move(*path), flightOptions).get());
+        try {
+            if (options) osgAnalyticBin::flight::readOptionString(parameters, options->getOptionString());
+            osgAnalyticBin::flight::readBracketed(parameters, name.parameters);
+            return ReadResult(nodeOf(osgAnalyticBin::flight::readCameraPathFiles({pathFile}), flightOptions).get());
+        } catch (const osgAnalyticBin::support::Failure& failure) {
+            return ReadResult(failure.what());
+        }
     }
 
 private:

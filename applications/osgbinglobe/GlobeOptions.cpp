@@ -4,6 +4,7 @@
 #include "GlobeOptions.h"
 
 #include "CsvTable.h"
+#include "Failure.h"
 
 #include <osgAnalyticBin/NameParameters.h>
 
@@ -15,11 +16,7 @@ namespace {
 
 using flight::textFrom;
 using osgbindem::TileId;
-
-// One line that says whose parameters they are.
-std::string ofGlobe(const std::string& message) {
-    return std::string(kGlobeExtension) + ": " + message;
-}
+using support::Failure;
 
 std::optional<TileId> tileFrom(const std::string& name) {
     TileId tile;
@@ -64,32 +61,28 @@ std::vector<flight::Parameter> GlobeOptions::parameters() {
             {"bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)", takeBins}};
 }
 
-std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString, std::string& error) {
+GlobeName globeNameOf(const std::string& fileName, const std::string& optionString) {
     const std::string file = withoutFolder(fileName);
     const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
     GlobeName result;
     const auto known = result.options.parameters();
     result.tile = tileFrom(parts.name);
-    if (!result.tile) {
-        if (!flight::readOptionString(known, optionString, error)) {
-            error = ofGlobe(error);
-            return std::nullopt;
+    try {
+        if (!result.tile) {
+            flight::readOptionString(known, optionString);
+            if (!parts.name.empty() &&
+                !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name))
+                throw Failure("\"" + parts.name + "\" is no number of levels; give 0 to 24, for example 12." +
+                              kGlobeExtension);
         }
-        if (!parts.name.empty() &&
-            !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name)) {
-            error = std::string(kGlobeExtension) + ": \"" + parts.name +
-                    "\" is no number of levels; give 0 to 24, for example 12." + kGlobeExtension;
-            return std::nullopt;
-        }
+        flight::readBracketed(known, parts.parameters);
+        if (result.tile && !hasChildren(*result.tile, result.options))
+            throw Failure("tile \"" + parts.name + "\" has no children in a globe of " +
+                          std::to_string(result.options.levels) + " levels");
+    } catch (const Failure& failure) {
+        throw Failure(std::string(kGlobeExtension) + ": " + failure.what());
     }
-    if (!flight::readBracketed(known, parts.parameters, error)) {
-        error = ofGlobe(error);
-        return std::nullopt;
-    }
-    if (!result.tile || hasChildren(*result.tile, result.options)) return result;
-    error = std::string(kGlobeExtension) + ": tile \"" + parts.name + "\" has no children in a globe of " +
-            std::to_string(result.options.levels) + " levels";
-    return std::nullopt;
+    return result;
 }
 
 std::string rootFileOf(const GlobeOptions& options) {

@@ -45,9 +45,8 @@ struct GlobeName {
 /// "LEVELS.(cells=CELLS).proceduralglobe", and the names of children, "LEVEL-X-Y.(...).proceduralglobe".
 /// `optionString`: a plugin option string; because every plugin reads that, items that are not ours are passed over.
 /// The name of the file wins; names of children say everything themselves.
-/// Returns: nullopt, with one line in `error`, when the name or a parameter is unknown, malformed or out of range.
-[[nodiscard]] std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString,
-                                                   std::string& error);
+/// Throws: Failure when the name or a parameter is unknown, malformed or out of range.
+[[nodiscard]] GlobeName globeNameOf(const std::string& fileName, const std::string& optionString);
 
 /// The file with the children of a tile. Requires: a tile above the deepest level.
 [[nodiscard]] std::string childrenFileOf(const osgbindem::TileId& tile, const GlobeOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Failure.h"
 #include "GlobeOptions.h"
 #include "ProceduralGlobe.h"
 
@@ -31,13 +32,15 @@ public:
 
     ReadResult readNode(const std::string& fileName, const Options* options) const override {
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName))) return ReadResult::FILE_NOT_HANDLED;
-        std::string error;
-        const auto name =
-            osgAnalyticBin::globe::globeNameOf(fileName, options ? options->getOptionString() : std::string(), error);
-        if (!name) return ReadResult(error);
-        const auto globe = globeOf(name->options);
-        const osg::ref_ptr<osg::Node> node = name->tile ? globe->children(*name->tile) : globe->root();
-        return node.get();
+        try {
+            const auto name =
+                osgAnalyticBin::globe::globeNameOf(fileName, options ? options->getOptionString() : std::string());
+            const auto globe = globeOf(name.options);
+            const osg::ref_ptr<osg::Node> node = name.tile ? globe->children(*name.tile) : globe->root();
+            return node.get();
+        } catch (const osgAnalyticBin::support::Failure& failure) {
+            return ReadResult(failure.what());
+        }
     }
 
 private:

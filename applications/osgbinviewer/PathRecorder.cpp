@@ -3,6 +3,7 @@
 
 #include "PathRecorder.h"
 
+#include "Failure.h"
 #include "ViewTools.h"
 
 #include <osg/Notify>
@@ -90,10 +91,12 @@ void PathRecorder::setRecording(bool recording) {
 
 void PathRecorder::write() {
     if (_isWritten) return;
-    std::string error;
-    const bool isGood = flight::writeCameraPathFile(_fileName, _path, error);
     _isWritten = true;
-    if (!isGood) OSG_WARN << "PathRecorder: " << error << std::endl;
+    try {
+        flight::writeCameraPathFile(_fileName, _path);
+    } catch (const support::Failure& failure) {
+        OSG_WARN << "PathRecorder: " << failure.what() << std::endl;
+    }
 }
 
 void PathRecorder::record(osg::Camera& camera, double time) {

@@ -41,25 +41,17 @@ public:
     Builder(const Surface& surface, const std::array<int, 3>& steps) : _surface(surface), _steps(steps) {
         const glm::dvec3 center = surface(glm::dvec3(0.0));
         _mesh.origin.set(center.x, center.y, center.z);
-        for (int fixed = 0; fixed < 3; ++fixed) {
+        for (int fixed = 0; fixed < 3; ++fixed)
             for (const double side : {-1.0, 1.0}) addFace(fixed, side);
-            addEdges(fixed);
-        }
     }
 
     [[nodiscard]] const SlabMesh& mesh() const { return _mesh; }
 
 private:
-    unsigned int addVertex(const glm::dvec3& unit) {
-        const glm::dvec3 ecef = _surface(unit);
-        _mesh.vertices.emplace_back(osg::Vec3d(ecef.x, ecef.y, ecef.z) - _mesh.origin);
-        return static_cast<unsigned int>(_mesh.vertices.size() - 1);
-    }
-
     [[nodiscard]] double unitAt(int axis, int step) const { return 2.0 * step / _steps[std::size_t(axis)] - 1.0; }
 
     // The face where one parameter is -1 or 1, counterclockwise from outside: latitude, longitude and altitude are a
-    // left-handed frame.
+    // left-handed frame. And two of its sides, so that all faces together have each edge of the box once.
     void addFace(int fixed, double side) {
         const int u = (fixed + 1) % 3;
         const int v = (fixed + 2) % 3;
@@ -72,7 +64,8 @@ private:
                 unit[fixed] = side;
                 unit[u] = unitAt(u, i);
                 unit[v] = unitAt(v, j);
-                (void)addVertex(unit);
+                const glm::dvec3 ecef = _surface(unit);
+                _mesh.vertices.emplace_back(osg::Vec3d(ecef.x, ecef.y, ecef.z) - _mesh.origin);
             }
         }
         const auto width = static_cast<unsigned int>(columns + 1);
@@ -86,26 +79,9 @@ private:
                 }
             }
         }
-    }
-
-    // The four edges along one parameter.
-    void addEdges(int along) {
-        const int u = (along + 1) % 3;
-        const int v = (along + 2) % 3;
-        for (const double first : {-1.0, 1.0}) {
-            for (const double second : {-1.0, 1.0}) {
-                unsigned int last = 0;
-                for (int i = 0; i <= _steps[std::size_t(along)]; ++i) {
-                    glm::dvec3 unit;
-                    unit[along] = unitAt(along, i);
-                    unit[u] = first;
-                    unit[v] = second;
-                    const unsigned int vertex = addVertex(unit);
-                    if (i > 0) _mesh.lines.insert(_mesh.lines.end(), {last, vertex});
-                    last = vertex;
-                }
-            }
-        }
+        for (const unsigned int row : {first, first + static_cast<unsigned int>(rows) * width})
+            for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i)
+                _mesh.lines.insert(_mesh.lines.end(), {row + i, row + i + 1});
     }
 
     const Surface& _surface;

@@ -132,12 +132,7 @@ osg::ref_ptr<osg::Node> readDatabase(const viewer::NamedDatabase& database) {
 
 ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, viewer::SpyViewHandler& spy) {
     std::vector<flight::CameraPose> poses;
-    if (!settings.poses.empty()) {
-        std::string error;
-        const auto path = flight::readCameraPathFile(settings.poses, error);
-        if (!path) throw std::runtime_error(error);
-        poses = *path;
-    }
+    if (!settings.poses.empty()) poses = flight::readCameraPathFiles({settings.poses});
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setRealizeOperation(new flight::WithoutAnisotropy);
     realize(viewer);

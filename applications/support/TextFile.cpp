@@ -13,11 +13,6 @@
 
 namespace osgAnalyticBin::support {
 
-bool replaceFile(const std::string& file, const std::string& text, std::string& error) {
-    return writeWholeFile(
-        file, [&text](std::ostream& out) { return (out << text).good(); }, error);
-}
-
 void writeFile(const std::string& file, const std::string& text) {
     writeFile(file, [&text](std::ostream& out) { return (out << text).good(); });
 }

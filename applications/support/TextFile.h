@@ -10,10 +10,7 @@
 namespace osgAnalyticBin::support {
 
 /// Writes a file under another name and renames it, so that it is either complete or as it was before, and notices a
-/// full disk. Returns: whether that was done; else `error` says why not.
-[[nodiscard]] bool replaceFile(const std::string& file, const std::string& text, std::string& error);
-
-/// The same. `write`: whether the stream took everything. Throws: Failure.
+/// full disk. `write`: whether the stream took everything. Throws: Failure.
 void writeFile(const std::string& file, const std::string& text);
 void writeFile(const std::string& file, const std::function<bool(std::ostream&)>& write);
 

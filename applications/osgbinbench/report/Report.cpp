@@ -86,19 +86,17 @@ Flight flightFrom(const std::string& folder) {
     const std::string file = (fs::path(folder) / flight::kPoseTableName).string();
     std::ifstream input(file);
     if (!input) throw Failure(file + ": cannot be opened (did that flight fail?)");
-    std::string error;
-    const auto table = flight::readCsv(input, file, error);
-    if (!table) throw Failure(error);
-    for (const flight::CsvTable::Row& row : table->rows) {
+    const flight::CsvTable table = flight::readCsv(input, file);
+    for (const flight::CsvTable::Row& row : table.rows) {
         Json& figures = flight.figures.rows.emplace_back();
         for (std::size_t i = 0; i < row.cells.size(); ++i) {
-            const std::string& column = table->columns[i];
+            const std::string& column = table.columns[i];
             if (column == "name")
                 flight.poses.push_back(row.cells[i]);
             else if (column == "picture")
                 flight.pictures.push_back(row.cells[i]);
             else
-                figures[column] = numberIn(*table, row, i);
+                figures[column] = numberIn(table, row, i);
         }
         figures[kPixelsColumn] = 0.0;
     }

@@ -225,12 +225,10 @@ int run(const std::vector<std::string>& words) {
     if (files.size() < 2) return std::fputs(kUsage, stderr), 2;
     const std::string database = files.front();
     files.erase(files.begin());
-    std::string error;
-    const auto path = flight::readCameraPathFiles(files, error);
-    if (!path) throw std::runtime_error(error);
+    const auto path = flight::readCameraPathFiles(files);
     Bench bench(database, models, width, height, computesNear);
     bool isRight = true;
-    for (const flight::CameraPose& pose : *path) isRight = bench.measure(pose) && isRight;
+    for (const flight::CameraPose& pose : path) isRight = bench.measure(pose) && isRight;
     bench.printSum();
     return isRight ? 0 : 1;
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::bench {
@@ -65,13 +66,7 @@ std::string errorOf(const std::string& before, const std::string& after) {
     const test::TemporaryFolder folder;
     std::ostringstream output;
     const std::string old = folder.write("old.json", before);
-    try {
-        (void)compareFiles(old, folder.write("new.json", after), output);
-    } catch (const Failure& failure) {
-        EXPECT_EQ(std::string(failure.what()).find('\n'), std::string::npos);
-        return failure.what();
-    }
-    return "no error";
+    return test::failureOf([&] { (void)compareFiles(old, folder.write("new.json", after), output); });
 }
 
 void setTime(Json& file, const std::string& method, double factor) {

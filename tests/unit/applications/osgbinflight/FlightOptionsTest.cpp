@@ -3,11 +3,14 @@
 //
 // Names and parameters of the pseudo-loader.
 
+#include "Failure.h"
 #include "FlightOptions.h"
 
 #include <osgAnalyticBin/NameParameters.h>
 
 #include <gtest/gtest.h>
+
+#include <support/FailureText.h>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -32,8 +35,7 @@ TEST(NameParameters, NeedNoName) {
 
 TEST(FlightOptions, ReadsEveryParameter) {
     FlightOptions options;
-    std::string error;
-    ASSERT_TRUE(readBracketed(options.parameters(), "out=/tmp/a folder, frames=3 ,timeout=1.5", error)) << error;
+    readBracketed(options.parameters(), "out=/tmp/a folder, frames=3 ,timeout=1.5");
     EXPECT_EQ(options.out, "/tmp/a folder");
     EXPECT_EQ(options.frames, 3);
     EXPECT_EQ(options.timeout, 1.5);
@@ -42,19 +44,16 @@ TEST(FlightOptions, ReadsEveryParameter) {
 TEST(FlightOptions, NamesAnUnknownOrMalformedParameter) {
     for (const char* const bad : {"speed=3", "frames=0", "frames=1.5", "frames=many", "timeout=-1", "out=", "frames"}) {
         FlightOptions options;
-        std::string error;
-        EXPECT_FALSE(readBracketed(options.parameters(), bad, error)) << bad;
+        const std::string error = test::failureOf([&] { readBracketed(options.parameters(), bad); });
         EXPECT_NE(error.find(bad), std::string::npos) << error;
-        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
 }
 
 TEST(FlightOptions, PassesOverTheOptionsOfOtherPlugins) {
     FlightOptions options;
-    std::string error;
-    ASSERT_TRUE(readOptionString(options.parameters(), "method=sphere frames=7 dds_flip", error)) << error;
+    readOptionString(options.parameters(), "method=sphere frames=7 dds_flip");
     EXPECT_EQ(options.frames, 7);
-    EXPECT_FALSE(readOptionString(options.parameters(), "method=sphere frames=seven", error));
+    EXPECT_THROW(readOptionString(options.parameters(), "method=sphere frames=seven"), support::Failure);
 }
 
 }  // namespace

@@ -385,13 +385,11 @@ TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {
                            " --methods quadratic+horizon+edges --repeats 1 --size 128x128 --csv " + test::quoted(table),
                        test::Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
     ASSERT_EQ(bench.code, 0) << bench.text;
-    std::string error;
     std::ifstream input(table);
-    const auto figures = flight::readCsv(input, table, error);
-    ASSERT_TRUE(figures) << error;
+    const auto figures = flight::readCsv(input, table);
     std::vector<TileCounts> played;
-    for (const auto& row : figures->rows) {
-        const auto cell = [&](const char* name) { return row.cells.at(figures->column(name).value()); };
+    for (const auto& row : figures.rows) {
+        const auto cell = [&](const char* name) { return row.cells.at(figures.column(name).value()); };
         if (cell("method") == "none") continue;
         const auto count = [&](const char* name) { return std::stoul(cell(name)); };
         played.push_back({count("tested_tiles"), count("kept_tiles"), count("drawn_tiles")});

@@ -5,21 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include <support/FailureText.h>
+
 namespace osgAnalyticBin::globe {
 namespace {
 
 GlobeOptions optionsOf(const std::string& name, const std::string& optionString = {}) {
-    std::string error;
-    const auto result = globeNameOf(name, optionString, error);
-    EXPECT_TRUE(result) << name << ": " << error;
-    return result ? result->options : GlobeOptions();
+    return globeNameOf(name, optionString).options;
 }
 
 std::string errorOf(const std::string& name, const std::string& optionString = {}) {
-    std::string error;
-    EXPECT_FALSE(globeNameOf(name, optionString, error)) << name;
-    EXPECT_EQ(error.find('\n'), std::string::npos);
-    return error;
+    return test::failureOf([&] { (void)globeNameOf(name, optionString); });
 }
 
 TEST(GlobeOptions, AreReadFromTheNameOfTheFile) {
@@ -49,13 +45,11 @@ TEST(GlobeOptions, NamesOfFilesReadBackToTheSame) {
     options.lod = 5.5;
     options.bins = false;
     EXPECT_EQ(optionsOf(rootFileOf(options)), options);
-    std::string error;
     const osgbindem::TileId tile{23, (16 << 23) - 1, (8 << 23) - 1};
-    const auto name = globeNameOf(childrenFileOf(tile, options), "levels=3", error);
-    ASSERT_TRUE(name) << error;
-    EXPECT_EQ(name->options, options);
-    ASSERT_TRUE(name->tile);
-    EXPECT_EQ(*name->tile, tile);
+    const auto name = globeNameOf(childrenFileOf(tile, options), "levels=3");
+    EXPECT_EQ(name.options, options);
+    ASSERT_TRUE(name.tile);
+    EXPECT_EQ(*name.tile, tile);
 }
 
 TEST(GlobeOptions, ErrorsNameWhatIsWrongAndWhatIsAllowed) {
