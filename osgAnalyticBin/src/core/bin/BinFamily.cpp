@@ -10,7 +10,6 @@
 #include <array>
 #include <cassert>
 #include <limits>
-#include <optional>
 
 namespace osgAnalyticBin::core {
 
@@ -26,29 +25,6 @@ void makeEmpty(double* slot, std::size_t stride) {
     for (std::size_t i = 0; i < row::kBinRows; ++i) slot[i * stride] = 0.0;
     slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
 }
-
-// An exact bin that is read from its slot only if the test of its middle is undecided.
-class SlotBin {
-public:
-    SlotBin(const double* slot, std::size_t stride) : _slot(slot), _stride(stride) {}
-
-    [[nodiscard]] glm::dvec3 hullPoint() const {
-        return {_slot[row::CenterX * _stride], _slot[row::CenterY * _stride], _slot[row::CenterZ * _stride]};
-    }
-    [[nodiscard]] double reach() const { return bin().reach(); }
-    [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const { return bin().supportPoint(direction); }
-    [[nodiscard]] Side classify(const Plane& plane) const { return bin().classify(plane); }
-
-private:
-    [[nodiscard]] const ExactGeodeticBin& bin() const {
-        if (!_bin) _bin.emplace(_slot, _stride);
-        return *_bin;
-    }
-
-    const double* _slot;
-    std::size_t _stride;
-    mutable std::optional<ExactGeodeticBin> _bin;
-};
 
 }  // namespace
 
@@ -110,7 +86,7 @@ bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask und
     assert(_data.filled >> i & 1);
     const double* const numbers = _data.numbers + i;
     if (_data.exact >> i & 1)
-        return core::isSeparated(SlotBin(numbers, _data.stride), planes, planes.size(), undecided);
+        return core::isSeparated(ExactGeodeticBin(numbers, _data.stride), planes, planes.size(), undecided);
     return core::isSeparated(QuadraticBin(numbers, _data.stride), planes, planes.size(), undecided);
 }
 

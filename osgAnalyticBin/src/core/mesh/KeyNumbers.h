@@ -32,14 +32,12 @@ public:
         return number;
     }
 
-    static constexpr std::uint32_t kNone = 0xffffffff;
-    /// Returns: kNone for keys without a number.
-    [[nodiscard]] std::uint32_t find(const Key& key) const { return _numbers[slotOf(key)]; }
-
     /// The keys in the order of their numbers.
     [[nodiscard]] const std::vector<Key>& keys() const { return _keys; }
 
 private:
+    static constexpr std::uint32_t kNone = 0xffffffff;
+
     [[nodiscard]] std::size_t slotOf(const Key& key) const {
         std::uint64_t hash = 0;
         for (const std::uint64_t part : key) hash = (hash ^ (part >> 29) ^ part) * 0x9e3779b97f4a7c15u;

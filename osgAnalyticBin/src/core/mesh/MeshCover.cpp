@@ -48,6 +48,8 @@ public:
         return cover;
     }
 
+    [[nodiscard]] const MeshCover::Ends& ends() const { return _ends; }
+
 private:
     using Corners = std::array<std::uint32_t, 3>;
     using Edge = std::array<std::uint64_t, 1>;  // of two vertices, the smaller number first
@@ -310,7 +312,7 @@ private:
     std::vector<std::uint32_t> _merged;  // the vertex that stands for each
     std::vector<std::optional<Geodetic>> _places;
     std::vector<Triangle> _triangles;
-    std::vector<std::array<std::uint32_t, 2>> _ends;
+    MeshCover::Ends _ends;
     glm::dvec3 _middle{0.0};          // of gentle triangles
     double _longitude = 0.0;          // of the middle
     Interval _latitude, _longitudes;  // of the place, the longitudes from the middle
@@ -319,8 +321,11 @@ private:
 
 }  // namespace
 
-MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error) {
-    return CoverSearch(ellipsoid, mesh, error).run();
+MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error, Ends* ends) {
+    CoverSearch search(ellipsoid, mesh, error);
+    const MeshCover cover = search.run();
+    if (ends) *ends = search.ends();
+    return cover;
 }
 
 }  // namespace osgAnalyticBin::core

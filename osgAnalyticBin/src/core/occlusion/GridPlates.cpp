@@ -92,15 +92,10 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const TriangleReach reach(sides, ellipsoid, radius, axisDistance);
     if (!TriangleReach::holdsFor(sides, radius, axisDistance, across, {altitude.lower - reach.sag, altitude.upper}))
         return;
-    // of a triangle's normal, the least share that points up: the cross product of a side along the parallel and one
-    // along the meridian
-    const double upward = 0.9 * axisDistance * across * 0.9 * radius * along;
-    const double normal = sides.horizontal * (sides.horizontal + 2.0 * sides.vertical);
-    const bool facesUp = upward > (2.0 * longest / radius + 1e-9) * normal;
     // columns keep out of the rims, which the outermost chords may cut
     const bool isWithinRims =
         reach.aside < kBorder * grid.latitude.width() && reach.around < kBorder * grid.longitude.width();
-    if (!facesUp || !isWithinRims) return;
+    if (!isWithinRims) return;
 
     std::array<double, kNumbers> low;
     low.fill(std::numeric_limits<double>::infinity());

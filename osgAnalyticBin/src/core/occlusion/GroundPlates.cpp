@@ -4,10 +4,10 @@
 #include "../Constants.h"
 #include "../EarthScale.h"
 #include "../kernels/OcclusionKernels.h"
-#include "../mesh/KeyNumbers.h"
 #include "PlateCells.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <glm/geometric.hpp>
@@ -26,78 +26,40 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Codes of bounds: the first stands for what is not known.
 constexpr std::uint16_t kUnknown = 0, kFirstCode = 1, kLastCode = 65535;
 
-Interval cellOf(const Interval& extents, std::size_t cells, std::size_t i) {
-    const double width = extents.width() / static_cast<double>(cells);
-    return {extents.lower + width * static_cast<double>(i), extents.lower + width * static_cast<double>(i + 1)};
-}
-
 }  // namespace
 
 // Goes over the triangles of a mesh. Source: doc/theory/occlusion.md, section 3.
 class GroundPlates::Builder {
 public:
-    Builder(GroundPlates& plates, const EcefMesh& mesh, double margin)
-        : _plates(plates),
-          _mesh(mesh),
-          _radius(0.9 * smallestCurvatureRadius(plates._ellipsoid)),
-          _edges(mesh.triangles.size()) {
-        _isCovered.fill(false);
-        _isDoubted.fill(false);
+    // `ends`: where its surface ends; elsewhere it covers all.
+    Builder(GroundPlates& plates, const EcefMesh& mesh, const MeshCover::Ends& ends, double margin)
+        : _plates(plates), _mesh(mesh), _radius(0.9 * smallestCurvatureRadius(plates._ellipsoid)) {
         _low.fill(kInfinity);
         _high.fill(-kInfinity);
-        findMiddles();
         findVertices();
-        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
-        addBorders();
-        for (std::size_t i = 0; i < kNumbers; ++i) {
-            if (!_isCovered[i] || _isDoubted[i]) _low[i] = -kInfinity;
-        }
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+            addTriangle({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+        for (const auto& [from, to] : ends) lower(boundsOf({from, to, to}), -kInfinity);
         plates.encode(_low, _high, margin);
     }
 
 private:
     using Corners = std::array<std::uint32_t, 3>;
-    using Edge = std::array<std::uint64_t, 1>;  // from a vertex to another
     struct Vertex {
-        glm::dvec3 up;
+        glm::dvec3 position, up;
         double latitude, longitude, altitude;  // the longitude from that of the middle
         double axisDistance;
     };
-    // The place on the ellipsoid in the middle of a cell, and the normal there.
-    struct Middle {
-        Geodetic place;
-        glm::dvec3 foot, up;
-    };
 
-    void findMiddles() {
-        for (const std::size_t cells : kCellsOfGrids) {
-            for (std::size_t i = 0; i < cells * cells; ++i) {
-                const double latitude = cellOf(_plates._latitude, cells, i / cells).middle();
-                const double longitude = cellOf(_plates._longitude, cells, i % cells).middle();
-                _middles[firstNumber(cells) + i] = {{latitude, longitude, 0.0},
-                                                    _plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
-                                                    _plates._ellipsoid.up(latitude, longitude)};
-            }
-        }
-    }
-
-    // Vertices at the same position count as one: triangles that share an edge may have vertices of their own.
     void findVertices() {
-        KeyNumbers<std::array<std::uint64_t, 3>> positions(_mesh.size());
         const double middle = _plates._longitude.middle();
-        _merged.reserve(_mesh.size());
         _vertices.reserve(_mesh.size());
-        _positions.reserve(_mesh.size());
         for (std::size_t i = 0; i < _mesh.size(); ++i) {
             const glm::dvec3 v = _mesh.vertex(i);
-            const std::uint32_t number = positions.numberOf({bitsOf(v.x), bitsOf(v.y), bitsOf(v.z)});
-            _merged.push_back(number);
-            if (number < _vertices.size()) continue;
             const Geodetic at = _plates._ellipsoid.toGeodetic(v);
             const double axisDistance = axisDistanceOf(_plates._ellipsoid, v);
-            _vertices.push_back({upAt(v, at, axisDistance), at.latitude,
+            _vertices.push_back({v, upAt(v, at, axisDistance), at.latitude,
                                  std::remainder(at.longitude - middle, 2.0 * kPi), at.altitude, axisDistance});
-            _positions.push_back(v);
         }
     }
 
@@ -108,16 +70,11 @@ private:
         return {share * v.x, share * v.y, std::sin(place.latitude)};
     }
 
-    [[nodiscard]] Corners cornersOf(const std::uint32_t* triangle) const {
-        return {_merged[triangle[0]], _merged[triangle[1]], _merged[triangle[2]]};
-    }
-    [[nodiscard]] glm::dvec3 normalOf(const Corners& c) const {
-        return glm::cross(_positions[c[1]] - _positions[c[0]], _positions[c[2]] - _positions[c[0]]);
-    }
+    [[nodiscard]] const glm::dvec3& positionOf(std::uint32_t vertex) const { return _vertices[vertex].position; }
     [[nodiscard]] TriangleSides sidesOf(const Corners& c) const {
         double longest2 = 0.0, horizontal2 = 0.0, vertical = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec3 side = _positions[c[(i + 1) % 3]] - _positions[c[i]];
+            const glm::dvec3 side = positionOf(c[(i + 1) % 3]) - positionOf(c[i]);
             const double rise = glm::dot(side, _vertices[c[0]].up), length2 = glm::dot(side, side);
             longest2 = std::max(longest2, length2);
             horizontal2 = std::max(horizontal2, length2 - rise * rise);
@@ -126,20 +83,13 @@ private:
         return TriangleSides::atAnyPoint(std::sqrt(longest2), std::sqrt(horizontal2), vertical, _radius);
     }
 
-    // Whether the front side of a triangle faces up. Back faces may be culled, and then hide nothing.
-    // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
-    [[nodiscard]] bool isUpward(const Corners& c, const TriangleSides& sides) const {
-        const glm::dvec3 normal = normalOf(c);
-        const double angle = 2.0 * sides.longest / _radius;
-        return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
-    }
-
     // Bounds of a triangle. Its longitudes are in the same turn as those of the extents.
-    [[nodiscard]] GeodeticBin boundsOf(const Corners& c, const TriangleSides& sides) const {
+    [[nodiscard]] GeodeticBin boundsOf(const Corners& c) const {
         const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
         const auto range = [&](double Vertex::*of) -> Interval {
             return {std::min({a.*of, b.*of, d.*of}), std::max({a.*of, b.*of, d.*of})};
         };
+        const TriangleSides sides = sidesOf(c);
         const Interval altitude = range(&Vertex::altitude), longitude = range(&Vertex::longitude);
         const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
         const TriangleReach reach(sides, _plates._ellipsoid, _radius, axisDistance);
@@ -154,16 +104,14 @@ private:
 
     [[nodiscard]] GeodeticBin thoroughBoundsOf(const Corners& c) const {
         GeodeticMeshBounds bounds(_plates._ellipsoid, _plates._longitude.middle());
-        for (const std::uint32_t corner : c) bounds.expandByVertex(_positions[corner]);
-        bounds.expandByTriangle(_positions[c[0]], _positions[c[1]], _positions[c[2]]);
+        for (const std::uint32_t corner : c) bounds.expandByVertex(positionOf(corner));
+        bounds.expandByTriangle(positionOf(c[0]), positionOf(c[1]), positionOf(c[2]));
         return bounds.bin();
     }
 
-    // Calls visit(number) for the cells of all grids that the bounds reach into. Bounds
-    // that are not known reach into all, and bounds around the axis into those at all longitudes: they do not count
-    // longitudes from where the extents do.
-    template <class Visit>
-    void forEachCell(const GeodeticBin& met, Visit&& visit) const {
+    // Lowers the cells of all grids that the bounds reach into. Bounds that are not known reach into all, and bounds
+    // around the axis into those at all longitudes: they do not count longitudes from where the extents do.
+    void lower(const GeodeticBin& met, double altitude) {
         const bool isAround = met.empty() || met.isFullCircle();
         const Interval& latitude = met.empty() ? _plates._latitude : met.latitude();
         for (const std::size_t cells : kCellsOfGrids) {
@@ -171,8 +119,11 @@ private:
             const CellRange columns =
                 cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
             for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
-                for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
-                    visit(numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+                for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column) {
+                    double& low =
+                        _low[numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column))];
+                    low = std::min(low, altitude);
+                }
             }
         }
     }
@@ -187,75 +138,25 @@ private:
                        [&](std::size_t quarter) { _high[quarter] = std::max(_high[quarter], top); });
     }
 
-    void addTriangle(const std::uint32_t* triangle) {
-        const Corners corners = cornersOf(triangle);
-        const auto [a, b, c] = corners;
+    void addTriangle(const Corners& c) {
         // an end of a line, which may run through all quarters
-        const bool isPoint = triangle[0] == triangle[1] && triangle[1] == triangle[2];
+        const bool isPoint = c[0] == c[1] && c[1] == c[2];
         if (isPoint) {
-            for (double& high : _high) high = std::max(high, _vertices[a].altitude);
+            for (double& high : _high) high = std::max(high, _vertices[c[0]].altitude);
             return;
         }
-        const TriangleSides sides = sidesOf(corners);
-        const GeodeticBin bounds = boundsOf(corners, sides);
+        const GeodeticBin bounds = boundsOf(c);
         raise(bounds);
-        // skirts that are folded up
-        if (a == b || b == c || c == a) return;
-        if (bounds.empty() || !isUpward(corners, sides)) {
-            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
-            return;
-        }
-        for (const Edge& edge : {edgeOf(a, b), edgeOf(b, c), edgeOf(c, a)}) {
-            const std::uint32_t number = _edges.numberOf(edge);
-            if (number == _edgeCounts.size()) _edgeCounts.push_back(0);
-            ++_edgeCounts[number];
-        }
-        forEachCell(bounds, [&](std::size_t cell) {
-            _low[cell] = std::min(_low[cell], bounds.altitude().lower);
-            if (!_isCovered[cell])
-                _isCovered[cell] = holds(bounds, _middles[cell]) && isOnNormal(corners, _middles[cell]);
-        });
-    }
-
-    [[nodiscard]] static Edge edgeOf(std::uint32_t from, std::uint32_t to) { return {std::uint64_t{from} << 32U | to}; }
-
-    // Whether the normal through the middle of a cell may meet what has these bounds.
-    [[nodiscard]] static bool holds(const GeodeticBin& bounds, const Middle& middle) {
-        return bounds.contains({middle.place.latitude, middle.place.longitude, bounds.altitude().lower});
-    }
-
-    // Whether the normal through the middle of a cell meets the triangle.
-    [[nodiscard]] bool isOnNormal(const Corners& c, const Middle& middle) const {
-        const auto& [place, foot, up] = middle;
-        const glm::dvec3 p = _positions[c[0]] - foot, q = _positions[c[1]] - foot, r = _positions[c[2]] - foot;
-        const double pq = glm::dot(up, glm::cross(p, q));
-        const double qr = glm::dot(up, glm::cross(q, r));
-        const double rp = glm::dot(up, glm::cross(r, p));
-        return pq >= 0.0 && qr >= 0.0 && rp >= 0.0;
-    }
-
-    // Where the mesh, or the part of it that faces one way, ends: at edges that do not have one triangle on each side.
-    void addBorders() {
-        for (std::uint32_t i = 0; i < _edgeCounts.size(); ++i) {
-            const auto from = static_cast<std::uint32_t>(_edges.keys()[i][0] >> 32U);
-            const auto to = static_cast<std::uint32_t>(_edges.keys()[i][0]);
-            const std::uint32_t other = _edges.find(edgeOf(to, from));
-            if (_edgeCounts[i] == 1 && other != _edges.kNone && _edgeCounts[other] == 1) continue;
-            const Corners corners{from, to, to};
-            forEachCell(boundsOf(corners, sidesOf(corners)), [&](std::size_t cell) { _isDoubted[cell] = true; });
-        }
+        // lines, and skirts that are folded up
+        const glm::dvec3 &p = positionOf(c[0]), &q = positionOf(c[1]), &r = positionOf(c[2]);
+        if (p == q || q == r || r == p) return;
+        lower(bounds, bounds.empty() ? -kInfinity : bounds.altitude().lower);
     }
 
     GroundPlates& _plates;
     const EcefMesh& _mesh;
-    const double _radius;                // no larger than a radius of curvature at any point of the mesh
-    std::vector<std::uint32_t> _merged;  // the vertex for each of the mesh
+    const double _radius;  // no larger than a radius of curvature at any point of the mesh
     std::vector<Vertex> _vertices;
-    std::vector<glm::dvec3> _positions;
-    KeyNumbers<Edge> _edges;
-    std::vector<std::uint32_t> _edgeCounts;
-    std::array<Middle, kNumbers> _middles;
-    std::array<bool, kNumbers> _isCovered, _isDoubted;
     std::array<double, kNumbers> _low;
     std::array<double, 4> _high;  // of the quarters
 };
@@ -265,11 +166,7 @@ GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
 }
 
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept
-    : _ellipsoid(ellipsoid),
-      _latitude(latitude),
-      _longitude(longitude),
-      _middle{std::sin(latitude.middle()), std::cos(latitude.middle()), std::sin(longitude.middle()),
-              std::cos(longitude.middle())} {
+    : _ellipsoid(ellipsoid), _latitude(latitude), _longitude(longitude), _middle(sinesOfMiddle(latitude, longitude)) {
     _least.fill(kUnknown);
     const double widest = std::max(latitude.width(), longitude.width());
     if (!(widest <= 2.0 * kernels::kFarthestFromMiddle)) return;
@@ -282,11 +179,8 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
                            double skirt)
     : GroundPlates(ellipsoid, extents.latitude(), extents.longitude()) {
     if (extents.empty() || !mayStandBeside(margin)) return;
-    const auto isFinite = [](const std::vector<double>& numbers) {
-        return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
-    };
-    if (!isFinite(mesh.x) || !isFinite(mesh.y) || !isFinite(mesh.z)) return;
-    Builder(*this, mesh, margin);
+    MeshCover::Ends ends;
+    if (MeshCover::of(ellipsoid, mesh, margin, &ends).isFilled) Builder(*this, mesh, ends, margin);
     if (!mayHang(skirt)) _most.fill(kUnknown);
 }
 
@@ -455,23 +349,7 @@ void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t
                 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns.size]) + depth);
         }
     }
-    const kernels::CellGround ground{_ellipsoid.isPlane(),
-                                     _ellipsoid.equatorialRadius(),
-                                     _ellipsoid.squaredRatio(),
-                                     _latitude.middle(),
-                                     _longitude.middle(),
-                                     _middle[0],
-                                     _middle[1],
-                                     _middle[2],
-                                     _middle[3],
-                                     _latitude.width(),
-                                     _longitude.width(),
-                                     depth,
-                                     {frame.x.x, frame.x.y, frame.x.z},
-                                     {frame.y.x, frame.y.y, frame.y.z},
-                                     {frame.z.x, frame.z.y, frame.z.z},
-                                     {frame.origin.x, frame.origin.y, frame.origin.z}};
-    kernels::activeOcclusion.columns(ground,
+    kernels::activeOcclusion.columns(cellGround(_ellipsoid, _latitude, _longitude, _middle, depth, frame),
                                      {cells.south.data() + first, cells.north.data() + first, cells.west.data() + first,
                                       cells.east.data() + first, high.data(), columns.size},
                                      columns.corners.data(), EarthColumns::kMost);

@@ -6,8 +6,10 @@
 #pragma once
 
 #include "../EarthScale.h"
+#include "../kernels/OcclusionKernels.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <glm/vec3.hpp>
@@ -74,6 +76,34 @@ void forEachQuarter(const Interval& latitude, const Interval& longitude, const I
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         if (rows[quarter / 2] && columns[quarter % 2]) visit(quarter);
     }
+}
+
+/// The sine and the cosine of the middle of some latitudes, then those of some longitudes.
+[[nodiscard]] inline std::array<double, 4> sinesOfMiddle(const Interval& latitude, const Interval& longitude) {
+    return {std::sin(latitude.middle()), std::cos(latitude.middle()), std::sin(longitude.middle()),
+            std::cos(longitude.middle())};
+}
+
+/// What the kernel for the corners of cells reads. `sines`: sinesOfMiddle(); `depth`: metres, of the columns.
+[[nodiscard]] inline kernels::CellGround cellGround(const Ellipsoid& ellipsoid, const Interval& latitude,
+                                                    const Interval& longitude, const std::array<double, 4>& sines,
+                                                    double depth, const InverseFrame& frame) {
+    return {ellipsoid.isPlane(),
+            ellipsoid.equatorialRadius(),
+            ellipsoid.squaredRatio(),
+            latitude.middle(),
+            longitude.middle(),
+            sines[0],
+            sines[1],
+            sines[2],
+            sines[3],
+            latitude.width(),
+            longitude.width(),
+            depth,
+            {frame.x.x, frame.x.y, frame.x.z},
+            {frame.y.x, frame.y.y, frame.y.z},
+            {frame.z.x, frame.z.y, frame.z.z},
+            {frame.origin.x, frame.origin.y, frame.origin.z}};
 }
 
 /// Metres of a point from the axis. A plane has none: as far away as it is on large ellipsoids.

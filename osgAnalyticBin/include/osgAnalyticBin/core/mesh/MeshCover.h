@@ -7,6 +7,10 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace osgAnalyticBin::core {
 
 /// Whether a mesh covers a rectangle of latitude and longitude, seen from above.
@@ -24,13 +28,18 @@ struct MeshCover {
     /// Skirts hang within this share of the rectangle's width from its border.
     static constexpr double kSkirtRoom = 1.0 / 256.0;
 
+    /// Edges of triangles, each by two vertices of the mesh.
+    using Ends = std::vector<std::array<std::uint32_t, 2>>;
+
     /// Of a mesh, where triangles count with their front faces. `error`: metres by which vertices are rounded; it adds
     /// to kTolerance. Steep triangles at the border count as skirts, and cover nothing. In doubt the rectangle is not
     /// filled: where surfaces with a hole overlap, where the mesh holds a pole within, and where it is no terrain.
+    /// `ends`: if not null, gets the edges at which the surface ends.
     /// Guarantee: isFilled as above, for altitudes above minus half the smallest radius of curvature; tests:
     /// MeshCover.*. Source: doc/theory/horizon.md, section 11.
     /// Cost: some 100 nanoseconds for each triangle. Requires: indices within the vertices.
-    [[nodiscard]] static MeshCover of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error = 0.0);
+    [[nodiscard]] static MeshCover of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error = 0.0,
+                                      Ends* ends = nullptr);
 };
 
 }  // namespace osgAnalyticBin::core

@@ -52,34 +52,19 @@ public:
     [[nodiscard]] BinBall ball() const noexcept;
 
     /// Bodies that hold its south-western, south-eastern, north-western and north-eastern quarter. Their reach is
-    /// infinite on ellipsoids whose squared eccentricity is not between -0.01 and 0.01.
-    /// Guarantee: each holds its quarter; test: BinBody.IsInTheHullsOfItsQuarters.
+    /// infinite on ellipsoids whose squared eccentricity is not between -0.01 and 0.01, and for bins wider than a
+    /// radian. Guarantee: each holds its quarter; test: BinBody.IsInTheHullsOfItsQuarters.
     [[nodiscard]] std::array<BinHull, 4> quarters() const noexcept;
 
 private:
-    // The sine and the cosine of an angle.
-    struct Angle {
-        explicit Angle(double radians) noexcept;
-        Angle(double ofSine, double ofCosine) noexcept : sine(ofSine), cosine(ofCosine) {}
-        [[nodiscard]] Angle plus(const Angle& other) const noexcept;
-        [[nodiscard]] std::array<Angle, 3> withEnds(double half) const noexcept;
-        double sine, cosine;
-    };
-    // The points of one latitude and altitude: on the globe's axis, in a map where x is 0, and how far from there.
-    struct Ring {
-        double axisDistance;
-        glm::dvec3 middle;
-    };
-
-    [[nodiscard]] Ring ring(const Angle& latitude, double altitude) const noexcept;
-    [[nodiscard]] Ring ringInMap(double latitude, double altitude) const noexcept;
+    [[nodiscard]] glm::dvec3 middle() const noexcept;
     [[nodiscard]] double largestRadius() const noexcept;
 
     const Ellipsoid& _ellipsoid;
     const GeodeticBin& _bin;
     double _margin;
     InverseFrame _frame;
-    Angle _latitude, _longitude;  // of the middle
+    std::array<double, 4> _middle;  // sine and cosine of the middle latitude, then longitude
 };
 
 }  // namespace osgAnalyticBin::core
