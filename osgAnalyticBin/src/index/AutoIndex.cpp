@@ -139,9 +139,24 @@ public:
     AutoIndex(const std::string& rootFile, osg::ref_ptr<const BinIndex> kept)
         : _rootFile(rootFile), _kept(std::move(kept)) {}
 
-    void start() override;
+    void start() override {
+        indexing::loadSerializers();
+        RunningThreads::instance().add(*this);
+        const std::lock_guard<std::mutex> guard(_threadMutex);
+        _thread = std::thread([this] { run(); });
+    }
     // Waits for the thread, which ends after the file that it reads.
-    void stop();
+    void stop() {
+        _isStopped.store(true);
+        {
+            const std::lock_guard<std::mutex> guard(_mutex);
+            _changed.notify_all();
+        }
+        const std::lock_guard<std::mutex> guard(_threadMutex);
+        if (!_thread.joinable()) return;
+        _thread.join();
+        RunningThreads::instance().remove(*this);
+    }
     [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const override {
         const std::lock_guard<std::mutex> guard(_mutex);
         return _whole;
@@ -152,12 +167,48 @@ public:
         return _whole.valid();
     }
     void noteRead(int change) override { _reads.fetch_add(change, std::memory_order_relaxed); }
-    void showNotes() override;
+    void showNotes() override {
+        std::vector<std::string> notes;
+        {
+            const std::lock_guard<std::mutex> guard(_mutex);
+            notes.swap(_notes);
+        }
+        for (const std::string& line : notes) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
+    }
 
 protected:
     ~AutoIndex() override { stop(); }
 
 private:
+    // Threads must end before OSG's registry does, also where an application never deletes its scene.
+    class RunningThreads {
+    public:
+        static RunningThreads& instance() {
+            (void)osgDB::Registry::instance();  // made first, deleted last
+            static RunningThreads threads;
+            return threads;
+        }
+        ~RunningThreads() {
+            std::set<AutoIndex*> running;
+            {
+                const std::lock_guard<std::mutex> lock(_mutex);
+                running = _running;
+            }
+            for (AutoIndex* const index : running) index->stop();
+        }
+        void add(AutoIndex& index) {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _running.insert(&index);
+        }
+        void remove(AutoIndex& index) {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _running.erase(&index);
+        }
+
+    private:
+        std::mutex _mutex;
+        std::set<AutoIndex*> _running;
+    };
     // What the thread does between the files.
     struct Observer final : indexing::WalkObserver {
         explicit Observer(AutoIndex& of) : index(of) {}
@@ -166,23 +217,82 @@ private:
         AutoIndex& index;
     };
 
-    void run();
+    void run() {
+        lowerPriority();
+        try {
+            make();
+        } catch (const Stopped&) {
+            // stop() was called
+        } catch (const std::exception& failure) {
+            note("no index of \"" + _rootFile + "\" can be made: " + failure.what());
+        }
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _hasEnded = true;
+        _changed.notify_all();
+    }
     // Does the work, in the thread. What it throws is shown as the reason why there is no index.
-    void make();
+    void make() {
+        const DatabaseFiles files(_rootFile);
+        const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
+        if (kept && isUpToDate(*kept, files)) return publish(kept);
+        constexpr int kMostRounds = 3;
+        for (int round = 0; round < kMostRounds; ++round) {
+            const osg::ref_ptr<const BinIndex> index = makeFrom(files);
+            if (!isUpToDate(*index, files)) continue;  // files were changed meanwhile
+            publish(index);
+            return keep(*index);
+        }
+        throw indexing::Failure("its files change all the time");
+    }
     // Reads all files. Returns: the index, with stamps.
-    [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const DatabaseFiles& files);
+    [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const DatabaseFiles& files) {
+        _tiles = 0;
+        Observer observer(*this);
+        indexing::MadeIndex made = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 1));
+        BinIndex::Stamps stamps;
+        for (const auto& [file, record] : made.records) stamps[file] = record.stamp;
+        made.index->setStamps(std::move(stamps));
+        return made.index;
+    }
     [[nodiscard]] bool isUpToDate(const BinIndex& index, const DatabaseFiles& files) const {
         return isCurrent(index, files, [this] { throwIfStopped(); });
     }
-    void publish(const osg::ref_ptr<const BinIndex>& index);
-    void keep(const BinIndex& index);
-    void note(const std::string& line);
-    void countTiles(std::size_t more);
+    void publish(const osg::ref_ptr<const BinIndex>& index) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _whole = index;
+    }
+    void keep(const BinIndex& index) {
+        throwIfStopped();
+        std::string error;
+        const std::string path = keepIndex(index, _rootFile, error);
+        note("the index of \"" + _rootFile + "\" is complete: " + std::to_string(index.tileCount()) + " tiles, " +
+             (path.empty() ? "not kept (" + error + ")" : "kept in \"" + path + "\""));
+    }
+    void note(const std::string& line) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _notes.push_back(line);
+    }
+    void countTiles(std::size_t more) {
+        _tiles += more;
+        if (_tiles <= kMostTiles) return;
+        throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
+    }
     void throwIfStopped() const {
         if (_isStopped.load(std::memory_order_relaxed)) throw Stopped();
     }
     // Waits while the pager reads, but not without limit.
-    void giveWay();
+    void giveWay() {
+        using namespace std::chrono_literals;
+        constexpr auto kStep = 2ms;
+        constexpr auto kLongest = 100ms;
+        std::unique_lock<std::mutex> guard(_mutex);
+        for (auto waited = 0ms; waited < kLongest; waited += kStep) {
+            throwIfStopped();
+            if (_reads.load(std::memory_order_relaxed) <= 0) return;
+            _changed.wait_for(guard, kStep);
+        }
+        throwIfStopped();
+    }
 
     const std::string _rootFile;
     osg::ref_ptr<const BinIndex> _kept;
@@ -197,139 +307,6 @@ private:
     std::vector<std::string> _notes;
     osg::ref_ptr<const BinIndex> _whole;
 };
-
-// Threads must end before OSG's registry does, also where an application never deletes its scene.
-class RunningThreads {
-public:
-    static RunningThreads& instance() {
-        (void)osgDB::Registry::instance();  // made first, deleted last
-        static RunningThreads threads;
-        return threads;
-    }
-    ~RunningThreads() {
-        std::set<AutoIndex*> running;
-        {
-            const std::lock_guard<std::mutex> lock(_mutex);
-            running = _running;
-        }
-        for (AutoIndex* const index : running) index->stop();
-    }
-    void add(AutoIndex& index) {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        _running.insert(&index);
-    }
-    void remove(AutoIndex& index) {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        _running.erase(&index);
-    }
-
-private:
-    std::mutex _mutex;
-    std::set<AutoIndex*> _running;
-};
-
-void AutoIndex::start() {
-    indexing::loadSerializers();
-    RunningThreads::instance().add(*this);
-    const std::lock_guard<std::mutex> guard(_threadMutex);
-    _thread = std::thread([this] { run(); });
-}
-
-void AutoIndex::stop() {
-    _isStopped.store(true);
-    {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        _changed.notify_all();
-    }
-    const std::lock_guard<std::mutex> guard(_threadMutex);
-    if (!_thread.joinable()) return;
-    _thread.join();
-    RunningThreads::instance().remove(*this);
-}
-
-void AutoIndex::run() {
-    lowerPriority();
-    try {
-        make();
-    } catch (const Stopped&) {
-        // stop() was called
-    } catch (const std::exception& failure) {
-        note("no index of \"" + _rootFile + "\" can be made: " + failure.what());
-    }
-    const std::lock_guard<std::mutex> guard(_mutex);
-    _hasEnded = true;
-    _changed.notify_all();
-}
-
-void AutoIndex::make() {
-    const DatabaseFiles files(_rootFile);
-    const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
-    if (kept && isUpToDate(*kept, files)) return publish(kept);
-    constexpr int kMostRounds = 3;
-    for (int round = 0; round < kMostRounds; ++round) {
-        const osg::ref_ptr<const BinIndex> index = makeFrom(files);
-        if (!isUpToDate(*index, files)) continue;  // files were changed meanwhile
-        publish(index);
-        return keep(*index);
-    }
-    throw indexing::Failure("its files change all the time");
-}
-
-osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
-    _tiles = 0;
-    Observer observer(*this);
-    indexing::MadeIndex made = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 1));
-    BinIndex::Stamps stamps;
-    for (const auto& [file, record] : made.records) stamps[file] = record.stamp;
-    made.index->setStamps(std::move(stamps));
-    return made.index;
-}
-
-void AutoIndex::publish(const osg::ref_ptr<const BinIndex>& index) {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    _whole = index;
-}
-
-void AutoIndex::keep(const BinIndex& index) {
-    throwIfStopped();
-    std::string error;
-    const std::string path = keepIndex(index, _rootFile, error);
-    note("the index of \"" + _rootFile + "\" is complete: " + std::to_string(index.tileCount()) + " tiles, " +
-         (path.empty() ? "not kept (" + error + ")" : "kept in \"" + path + "\""));
-}
-
-void AutoIndex::note(const std::string& line) {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    _notes.push_back(line);
-}
-
-void AutoIndex::showNotes() {
-    std::vector<std::string> notes;
-    {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        notes.swap(_notes);
-    }
-    for (const std::string& line : notes) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
-}
-
-void AutoIndex::countTiles(std::size_t more) {
-    _tiles += more;
-    if (_tiles <= kMostTiles) return;
-    throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
-}
-
-void AutoIndex::giveWay() {
-    using namespace std::chrono_literals;
-    constexpr auto kStep = 2ms;
-    constexpr auto kLongest = 100ms;
-    std::unique_lock<std::mutex> guard(_mutex);
-    for (auto waited = 0ms; waited < kLongest; waited += kStep) {
-        throwIfStopped();
-        if (_reads.load(std::memory_order_relaxed) <= 0) return;
-        _changed.wait_for(guard, kStep);
-    }
-    throwIfStopped();
-}
 
 }  // namespace
 

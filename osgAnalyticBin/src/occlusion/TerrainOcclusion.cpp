@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "TerrainOcclusion.h"
-
 #include "../kit/SmallFeature.h"
 #include "../kit/tile/InstalledTile.h"
+#include "../kit/tile/TerrainHider.h"
+#include "OcclusionSearch.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -132,6 +133,12 @@ double turningOf(const LevelView& lines, const FoundOcclusion& found) {
     return 1.0 + std::max(left - leftmost, rightmost - right) * std::max(std::abs(left), std::abs(right));
 }
 
+// What is hidden in a view, and how far ahead the near plane reaches without it.
+struct LeftOut {
+    std::vector<std::size_t> tiles;  // by their positions among those that are shown
+    double reach;                    // metres along the forward axis of the picture
+};
+
 LeftOut leftOut(const TerrainHider::View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
                 const FoundOcclusion& found) {
     LeftOut left{hiddenIn(found, shown), 0.0};
@@ -215,93 +222,110 @@ std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& v
     return left;
 }
 
-}  // namespace
-
-TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
-    constexpr const char* kSteep = "a view that is steeper than 78 degrees nowhere";
-    constexpr const char* kNearPlane = "a near plane that surely cuts no terrain";
-    if (!view.nearBound && !std::isfinite(view.nearReach)) return nothingFor(kNearPlane);
-    // tiles in front of the near plane are not looked for then
-    constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear)
-        return nothingFor("no culling by the near plane");
-    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return nothingFor("an eye over the database");
-    const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
-    const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
-    if (!lines) return nothingFor(kSteep);
-    if (!_found) _found = std::make_unique<FoundOcclusion>();
-    Hidden hidden;
-    const Ground ground = describe(view, shown, _found->shown, hidden.withoutPlates);
-    hidden.isAwaited = ground == Ground::Awaited;
-    hidden.missing = hidden.isAwaited ? "tiles that are prepared: wait a moment" : "tiles without holes";
-    if (ground != Ground::Known) return hidden;
-    auto spanThen = PictureSpan::of(*lines, _found->eye);
-    std::optional<LeftOut> left = served(*_found, view, *lines, shown, spanThen);
-    if (!left) left = servedAhead(view, *lines, shown, spanThen);
-    if (!left) {
-        FoundPtr next = aimed(*_found, view, *lines, spanThen);
-        if (!next) return nothingFor(kSteep);
-        left = search(view, *lines, shown, _nearMeshes, next);
-        _found = std::move(next);
-        if (!left) return nothingFor(kNearPlane);
-        _found->uses = 1;
-    } else if (!_ahead.valid() && spanThen && isNearlyUsedUp(*_found, view.eye, spanThen->across)) {
-        searchAhead(view, *lines, shown, spanThen);
+// Hides shown tiles behind the terrain of others, for an eye above the terrain. It finds nothing for views that look
+// so steeply that there is no horizon in front of them, if the near plane may cut into terrain, and if a tile may have
+// a hole. What a search has found is used again if the same tiles are shown and the eye has moved little; the next
+// search is made in a thread beside. Source:
+// doc/theory/occlusion.md, section 5; tests: TerrainOcclusion.*. Cost: a few ten nanoseconds for each shown tile; if
+// there has to be a search, a sort of the shown tiles and a few microseconds for each that is not hidden.
+class TerrainOcclusion final : public TerrainHider {
+public:
+    [[nodiscard]] Hidden find(const View& view, const std::vector<ShownTile>& shown) override {
+        constexpr const char* kSteep = "a view that is steeper than 78 degrees nowhere";
+        constexpr const char* kNearPlane = "a near plane that surely cuts no terrain";
+        if (!view.nearBound && !std::isfinite(view.nearReach)) return nothingFor(kNearPlane);
+        // tiles in front of the near plane are not looked for then
+        constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
+        if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear)
+            return nothingFor("no culling by the near plane");
+        if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return nothingFor("an eye over the database");
+        const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
+        const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
+        if (!lines) return nothingFor(kSteep);
+        if (!_found) _found = std::make_unique<FoundOcclusion>();
+        Hidden hidden;
+        const Ground ground = describe(view, shown, _found->shown, hidden.withoutPlates);
+        hidden.isAwaited = ground == Ground::Awaited;
+        hidden.missing = hidden.isAwaited ? "tiles that are prepared: wait a moment" : "tiles without holes";
+        if (ground != Ground::Known) return hidden;
+        auto spanThen = PictureSpan::of(*lines, _found->eye);
+        std::optional<LeftOut> left = served(*_found, view, *lines, shown, spanThen);
+        if (!left) left = servedAhead(view, *lines, shown, spanThen);
+        if (!left) {
+            FoundPtr next = aimed(*_found, view, *lines, spanThen);
+            if (!next) return nothingFor(kSteep);
+            left = search(view, *lines, shown, _nearMeshes, next);
+            _found = std::move(next);
+            if (!left) return nothingFor(kNearPlane);
+            _found->uses = 1;
+        } else if (!_ahead.valid() && spanThen && isNearlyUsedUp(*_found, view.eye, spanThen->across)) {
+            searchAhead(view, *lines, shown, spanThen);
+        }
+        hidden.tiles = std::move(left->tiles);
+        _found->neededReach = left->reach;
+        hidden.inView = countInView(*_found, shown);
+        hidden.covered = _found->covered;
+        _found->lastEye = view.eye;
+        _found->lastAcross = PictureSpan::of(*lines, _found->eye).value_or(_found->span).across;
+        return hidden;
     }
-    hidden.tiles = std::move(left->tiles);
-    _found->neededReach = left->reach;
-    hidden.inView = countInView(*_found, shown);
-    hidden.covered = _found->covered;
-    _found->lastEye = view.eye;
-    _found->lastAcross = PictureSpan::of(*lines, _found->eye).value_or(_found->span).across;
-    return hidden;
-}
+    [[nodiscard]] bool hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) override {
+        if (!_found || !_found->earth) return false;
+        FoundOcclusion& found = *_found;
+        core::HorizonBuffer& earth = *found.earth;
+        if (!earth.isSorted()) earth.sort();
+        const glm::dvec3 from = centre - found.eye.origin;
+        const core::BinBall ball{
+            {glm::dot(from, found.eye.x), glm::dot(from, found.eye.y), glm::dot(from, found.eye.z)}, radius};
+        const core::HorizonBuffer::Outline outline = earth.outlineOf(ball);
+        return (isBehindHorizon && earth.isAboveLowest(outline)) || earth.hidesInAnyOrder(outline);
+    }
 
-// By the search for views that follow, if it serves this one. `spanThen`: in the picture of what was found before.
-std::optional<LeftOut> TerrainOcclusion::servedAhead(const View& view, const LevelView& lines,
+protected:
+    ~TerrainOcclusion() override = default;
+
+private:
+    // By the search for views that follow, if it serves this one. `spanThen`: in the picture of what was found before.
+    [[nodiscard]] std::optional<LeftOut> servedAhead(const View& view, const LevelView& lines,
                                                      const std::vector<ShownTile>& shown,
                                                      std::optional<PictureSpan>& spanThen) {
-    if (!_ahead.valid()) return std::nullopt;
-    FoundPtr ahead = _ahead.get();
-    if (!ahead) return std::nullopt;
-    ahead->uses += _found->uses;
-    ahead->shown.swap(_found->shown);
-    const auto span = PictureSpan::of(lines, ahead->eye);
-    std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
-    if (!left) {
+        if (!_ahead.valid()) return std::nullopt;
+        FoundPtr ahead = _ahead.get();
+        if (!ahead) return std::nullopt;
+        ahead->uses += _found->uses;
         ahead->shown.swap(_found->shown);
-        return std::nullopt;
+        const auto span = PictureSpan::of(lines, ahead->eye);
+        std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
+        if (!left) {
+            ahead->shown.swap(_found->shown);
+            return std::nullopt;
+        }
+        ahead->lastEye = _found->lastEye;
+        // the same turn in the other picture
+        const core::Interval before = _found->lastAcross, now = spanThen ? spanThen->across : before;
+        ahead->lastAcross = {span->across.lower + before.lower - now.lower,
+                             span->across.upper + before.upper - now.upper};
+        _found = std::move(ahead);
+        spanThen = span;
+        return left;
     }
-    ahead->lastEye = _found->lastEye;
-    // the same turn in the other picture
-    const core::Interval before = _found->lastAcross, now = spanThen ? spanThen->across : before;
-    ahead->lastAcross = {span->across.lower + before.lower - now.lower, span->across.upper + before.upper - now.upper};
-    _found = std::move(ahead);
-    spanThen = span;
-    return left;
-}
 
-// Starts a search for the views that follow those which what was found serves.
-void TerrainOcclusion::searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
-                                   const std::optional<PictureSpan>& spanThen) {
-    FoundPtr next = aimed(*_found, view, lines, spanThen);
-    if (!next) return;
-    next->nearReach = reachToBeginWith(view, lines, *next);
-    next->uses = -_found->uses;  // it grows old while the other one serves
-    if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
-}
+    // Starts a search for the views that follow those which what was found serves.
+    void searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                     const std::optional<PictureSpan>& spanThen) {
+        FoundPtr next = aimed(*_found, view, lines, spanThen);
+        if (!next) return;
+        next->nearReach = reachToBeginWith(view, lines, *next);
+        next->uses = -_found->uses;  // it grows old while the other one serves
+        if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
+    }
 
-bool TerrainOcclusion::hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) {
-    if (!_found || !_found->earth) return false;
-    FoundOcclusion& found = *_found;
-    core::HorizonBuffer& earth = *found.earth;
-    if (!earth.isSorted()) earth.sort();
-    const glm::dvec3 from = centre - found.eye.origin;
-    const core::BinBall ball{{glm::dot(from, found.eye.x), glm::dot(from, found.eye.y), glm::dot(from, found.eye.z)},
-                             radius};
-    const core::HorizonBuffer::Outline outline = earth.outlineOf(ball);
-    return (isBehindHorizon && earth.isAboveLowest(outline)) || earth.hidesInAnyOrder(outline);
-}
+    FoundPtr _found;               // by the last search; null: none
+    std::future<FoundPtr> _ahead;  // of a search for the views that follow those which that one serves
+    NearMeshes _nearMeshes;        // last read around the eye
+};
+
+}  // namespace
 
 osg::ref_ptr<TerrainHider> makeTerrainHider() {
     return new TerrainOcclusion;

@@ -121,7 +121,7 @@ FAULTS = [
           "whereBit<Real>(known.open, bit)", "whereBit<Real>(bits<Real>(~0u), bit)", CORE, "BinFamily*"),
     Fault("families: exact lanes are lost beside quadratic ones", "src/core/kernels/FamilyStages.inl",
           "openExact = exclusive(known.open, openQuadratic)", "openExact = bits<Real>(0)", CORE, "BinFamily*"),
-    Fault("planes that are decided stay undecided", "src/core/PlaneSet.cpp", "undecided &= ~sides.inside();", "", CORE,
+    Fault("planes that are decided stay undecided", "src/core/bin/QuadraticBin.cpp", "undecided &= ~sides.inside();", "", CORE,
           "PlaneSet*:Classify*"),
 
     # the horizon

@@ -4,7 +4,7 @@
 Argument: the source folder.
 
 A unit is a header with its sources: those of the same name, and those without a header of their own whose names begin
-with that name, such as BinInstallerPaging.cpp. A public header belongs to the folder of its source."""
+with that name, such as AnalyticBinCullCallbackText.cpp. A public header belongs to the folder of its source."""
 
 import pathlib
 import re

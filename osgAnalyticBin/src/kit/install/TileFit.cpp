@@ -117,34 +117,234 @@ public:
         _fit.stored = _above;
     }
 
-    [[nodiscard]] TileFit result() &&;
+    [[nodiscard]] TileFit result() && {
+        if (!_shape.isKnown() && hasTerrainTile(_tile)) {
+            fitUnknown();
+            return std::move(_fit);
+        }
+        hasStoredBin(*_tile.node) ? fitStored() : fitUnstored();
+        if (_fit.surface.valid() && (_from.hasNewContent || leavesHeights())) report(Finding::Larger, _fit.surface);
+        if (leavesExtents()) report(Finding::Larger, _fit.extents.isMeasured ? _fit.surface : _fit.bin);
+        if (_shape.areBoundariesEqual && _fit.isScalable) {
+            _fit.bin = withHeights(_fit.bin);
+            _fit.surface = withHeights(_fit.surface);
+        }
+        if (_fit.isScalable && _shape.techniqueMargin > 0.0) {
+            _fit.isInPlace = false;
+            for (AnalyticBin* const bin : {&_fit.bin, &_fit.surface})
+                bin->setMargin(bin->margin() + _shape.techniqueMargin);
+        }
+        return std::move(_fit);
+    }
 
 private:
     void report(Finding finding, const AnalyticBin& drawn = {}) { _fit.findings.emplace_back(finding, drawn); }
-    [[nodiscard]] TileSurface meshSurface() const;
-    void standIn(const core::GeodeticBin& extents);
     [[nodiscard]] bool countsSkirts() const {
         // makers of bins need not know that nothing stands before the skirts on the border
         return _from.options.skirts == SkirtUse::All || _fit.extents.edges.areOnBorder();
     }
-    [[nodiscard]] AnalyticBin rangedBin(const TileSurface& surface) const;
-    void fitSurface();
-    [[nodiscard]] AnalyticBin dippedBin(const AnalyticBin& bin) const;
-    [[nodiscard]] const BinIndex::Entry* indexEntry() const;
-    void fitIndexed(const BinIndex::Entry& entry);
-    [[nodiscard]] AnalyticBin withHeights(const AnalyticBin& bin) const;
-    void fitUnknown();
     [[nodiscard]] bool isHeld(const AnalyticBin& outer, const AnalyticBin& inner, double sag) const {
         return !outer.valid() || !inner.valid() || nearlyHolds(outer, inner, sag, _ellipsoid);
     }
-    void checkUnstored(const AnalyticBin& shown, double sag);
-    void correct();
-    [[nodiscard]] AnalyticBin shownSurface(const AnalyticBin& surface) const;
-    [[nodiscard]] AnalyticBin checkStored(const TileSurface& own);
-    void fitStored();
-    void fitUnstored();
-    [[nodiscard]] bool leavesHeights() const;
-    [[nodiscard]] bool leavesExtents() const;
+
+    // Meshes of one tile are its levels of detail: any of them may be shown.
+    [[nodiscard]] TileSurface meshSurface() const {
+        TileSurface surface;
+        surface.isEmpty = true;
+        for (const osg::ref_ptr<osg::Node>& mesh : _tile.meshes) {
+            const TileSurface own = tileSurface(*mesh, _from.ellipsoid, _tile.frame.localToEcef, _shape.sampleRatio,
+                                                _from.options.techniqueMargin.has_value());
+            if (own.isEmpty) continue;
+            if (!own.bin.valid()) return {};
+            surface.isEmpty = false;
+            surface.bin.expandBy(own.bin);
+            surface.skirt = std::max(surface.skirt, own.skirt);
+            surface.isScalable = surface.isScalable || own.isScalable;
+        }
+        return surface;
+    }
+
+    void standIn(const core::GeodeticBin& extents) {
+        const InstalledTile::Extents* const above = _from.parent ? &_from.parent->extents : nullptr;
+        _fit.extents.bin = extents;
+        _fit.extents.edges =
+            core::TileEdges::of(extents, above ? &above->bin : nullptr, above ? &above->edges : nullptr);
+    }
+
+    // The bin of a tile of which no more is known than its surface and the declared heights.
+    [[nodiscard]] AnalyticBin rangedBin(const TileSurface& surface) const {
+        const core::GeodeticBin& extents = surface.bin.bin();
+        double sag = core::crackDepth(_ellipsoid, extents, _fit.extents.edges);
+        core::Interval altitude = extents.altitude();
+        if (!_isLeaf) {
+            sag = std::max(sag, core::sagOfFinerMeshes(_ellipsoid, extents, surface.isScalable));
+            altitude.upper = std::max(altitude.upper, _heights.upper);
+        }
+        altitude.lower = std::min(altitude.lower, _heights.lower - sag);
+        AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
+        // in latitude and in longitude
+        if (!_isLeaf) bin.setMargin(bin.margin() + 2.0 * roundingOf(_ellipsoid));
+        return bin;
+    }
+
+    void fitSurface() {
+        const TileSurface surface = meshSurface();
+        _fit.isTerrain = surface.bin.valid();
+        if (!_fit.isTerrain && !surface.isEmpty && _above.valid()) report(Finding::Unverifiable);
+        if (!_fit.isTerrain) return;
+        standIn(surface.bin.bin());
+        _fit.extents.isMeasured = true;
+        _fit.surface = surface.bin;
+        _fit.isScalable = surface.isScalable;
+        // what is drawn, and nothing else; exaggeration would not treat skirts as heights
+        const core::Interval& altitude = surface.bin.bin().altitude();
+        const bool isScaled = surface.isScalable && _shape.verticalScale != 1.0;
+        const bool isDrawnAsRead = !isScaled && !_shape.areBoundariesEqual;
+        _fit.isDeclared = isDrawnAsRead && !_isLeaf;
+        if (countsSkirts()) _fit.skirt = surface.skirt;
+        _fit.bin = _isLeaf && isDrawnAsRead
+                       ? withAltitude(surface.bin, {altitude.lower - surface.skirt + _fit.skirt, altitude.upper}, 0.0)
+                       : rangedBin(surface);
+    }
+
+    // The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their
+    // edges.
+    [[nodiscard]] AnalyticBin dippedBin(const AnalyticBin& bin) const {
+        const double relief = _heights.width() + bin.sag();
+        const double dip = core::dipBehindEdge(_ellipsoid, bin.bin(), _fit.extents.edges, relief);
+        const core::Interval& altitude = bin.bin().altitude();
+        return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
+    }
+
+    // Returns: nullptr when the index does not know the tile as it is.
+    [[nodiscard]] const BinIndex::Entry* indexEntry() const {
+        const BinIndex::Entry* const entry = _from.index ? _from.index->find(_tile.frame.file, _tile.ordinal) : nullptr;
+        return entry && entry->fingerprint == tileFingerprint(_tile) ? entry : nullptr;
+    }
+
+    void fitIndexed(const BinIndex::Entry& entry) {
+        _fit.isTerrain = true;
+        _fit.isScalable = hasTerrainTile(_tile);
+        standIn(entry.bin.bin());
+        _fit.surface = surfaceAbove(entry.ownLow, entry.bin);
+        _fit.bin = dippedBin(entry.bin);
+        if (!_fit.extents.edges.areOnBorder()) return;
+        // an index says nothing of skirts
+        const TileSurface surface = meshSurface();
+        _fit.skirt = surface.skirt;
+        if (!surface.bin.valid()) _fit.bin.init();
+    }
+
+    // Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
+    [[nodiscard]] AnalyticBin withHeights(const AnalyticBin& bin) const {
+        if (!bin.valid()) return bin;
+        const core::Interval& own = bin.bin().altitude();
+        const core::Interval all{std::min(own.lower, _heights.lower - bin.sag()), std::max(own.upper, _heights.upper)};
+        return withAltitude(bin, all, 0.0);
+    }
+
+    // A terrain tile whose technique is not OSG's own and may draw anything.
+    void fitUnknown() {
+        report(Finding::UnknownTechnique);
+        const TileSurface surface = meshSurface();
+        if (surface.bin.valid()) standIn(surface.bin.bin());
+        _fit.isScalable = true;
+        _fit.isTerrain = true;
+    }
+
+    // A bin that is stored with a tile also stands for what is paged below it and not loaded yet. Content that turns
+    // out to be larger expands it and its ancestors. Returns: the tile's own surface, where it is known.
+    [[nodiscard]] AnalyticBin checkStored(const TileSurface& own) {
+        // other sample ratios make other meshes than those that the bin was made of
+        const AnalyticBin surface = own.isScalable && _shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
+        const bool isWithinBin = isHeld(_fit.bin, surface, surface.sag());
+        if (!isWithinBin) {
+            // a mesh that stands elsewhere may leave the place of the stored bin empty
+            const AnalyticBin column(_fit.bin.bin().withAltitude(surface.bin().altitude()), _fit.bin.margin());
+            if (!nearlyHolds(column, surface, surface.sag(), _ellipsoid)) report(Finding::MovedTile);
+        }
+        if (!isWithinBin || (_from.hasNewContent && surface.valid())) _fit.bin.expandBy(surface);
+        const AnalyticBin& drawn = _fit.bin.valid() ? _fit.bin : surface;
+        const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
+        if (!isWithinBin || !isHeld(_above, drawn, sag)) report(Finding::LargerThanStored, drawn);
+        return surface;
+    }
+
+    // The same of a tile that has no bin of its own stored, below one that has.
+    void checkUnstored(const AnalyticBin& shown, double sag) {
+        if (!isHeld(_above, shown, sag)) report(Finding::LargerThanStored, shown);
+    }
+
+    // By what was found of the tile before. That may have been in another place, below other tiles.
+    void correct() {
+        const Widening& correction = _from.correction;
+        if (correction.isBoundless && _above.valid()) report(Finding::Unverifiable);
+        checkUnstored(correction.bin, 0.0);
+        if (correction.any()) _fit.bin = correction.widened(_fit.bin);
+    }
+
+    // A stored lowest altitude is closer than the bound of a mesh's sag; it is used where the mesh's vertices allow it.
+    [[nodiscard]] AnalyticBin shownSurface(const AnalyticBin& surface) const {
+        const auto low = storedSurfaceLow(*_tile.node);
+        if (!low) return surface;
+        const bool isPossible = !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() +
+                                                                surface.margin() + roundingOf(_ellipsoid);
+        return isPossible ? surfaceAbove(*low, _fit.bin) : surface;
+    }
+
+    void fitStored() {
+        const TileSurface own = meshSurface();
+        if (!own.bin.valid() && !own.isEmpty) return report(Finding::Unverifiable);
+        _fit.bin = storedBin(*_tile.node);
+        _fit.isScalable = hasTerrainTile(_tile);
+        _fit.isTerrain = true;
+        const AnalyticBin surface = checkStored(own);
+        if (!_fit.bin.valid()) return;
+        _fit.surface = shownSurface(surface);
+        standIn(_fit.bin.bin());
+        if (countsSkirts()) _fit.skirt = own.skirt;
+        correct();
+        _fit.stored = _fit.bin;
+    }
+
+    void fitUnstored() {
+        // an index does not know how far skirts hang, nor meshes of other sample ratios
+        const bool isIndexFit = _from.options.skirts == SkirtUse::Cracks && _shape.sampleRatio == 1.0;
+        const BinIndex::Entry* const entry = isIndexFit ? indexEntry() : nullptr;
+        if (entry && entry->bin.valid()) {
+            fitIndexed(*entry);
+            checkUnstored(_fit.bin, _fit.bin.sag());
+        } else {
+            fitSurface();
+            if (isIndexFit && _fit.isTerrain && !_isLeaf && !_shape.areBoundariesEqual) report(Finding::IndexWanted);
+            if (isIndexFit && _fit.isTerrain && _from.index && !entry) report(Finding::OtherThanIndexed, _fit.bin);
+            if (!_fit.isScalable || _shape.sampleRatio == 1.0) checkUnstored(_fit.surface, _fit.surface.sag());
+        }
+        if (!_fit.bin.valid()) return;
+        _fit.bin.setBin(core::withGaps(_ellipsoid, _fit.bin.bin(), _fit.extents.edges));
+        correct();
+    }
+
+    // Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
+    [[nodiscard]] bool leavesHeights() const {
+        const core::Interval& altitude = _fit.surface.bin().altitude();
+        return altitude.upper > _heights.upper || altitude.lower + _fit.surface.sag() < _heights.lower;
+    }
+
+    // Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
+    [[nodiscard]] bool leavesExtents() const {
+        const InstalledTile* above = _from.parent;
+        while (above && !above->ordinal) above = above->parent.get();
+        const core::GeodeticBin& own = (_fit.extents.isMeasured ? _fit.surface : _fit.bin).bin();
+        if (!above || !above->extents.isMeasured || own.empty()) return false;
+        const core::Interval &latitude = above->extents.bin.latitude(), &longitude = above->extents.bin.longitude();
+        const double angle = roundingOf(_ellipsoid) / _ellipsoid.polarRadius();
+        const double eastward =
+            angle / std::max(std::cos(std::min(std::abs(latitude.lower), std::abs(latitude.upper))), 1e-3);
+        return !core::GeodeticBin({latitude.lower - angle, latitude.upper + angle},
+                                  {longitude.lower - eastward, longitude.upper + eastward}, own.altitude())
+                    .contains(own);
+    }
 
     const FoundTile& _tile;
     const FitSources& _from;
@@ -155,223 +355,6 @@ private:
     const AnalyticBin _above;  // the nearest bin above that is stored with its tile
     TileFit _fit;
 };
-
-// Meshes of one tile are its levels of detail: any of them may be shown.
-TileSurface Fitting::meshSurface() const {
-    TileSurface surface;
-    surface.isEmpty = true;
-    for (const osg::ref_ptr<osg::Node>& mesh : _tile.meshes) {
-        const TileSurface own = tileSurface(*mesh, _from.ellipsoid, _tile.frame.localToEcef, _shape.sampleRatio,
-                                            _from.options.techniqueMargin.has_value());
-        if (own.isEmpty) continue;
-        if (!own.bin.valid()) return {};
-        surface.isEmpty = false;
-        surface.bin.expandBy(own.bin);
-        surface.skirt = std::max(surface.skirt, own.skirt);
-        surface.isScalable = surface.isScalable || own.isScalable;
-    }
-    return surface;
-}
-
-void Fitting::standIn(const core::GeodeticBin& extents) {
-    const InstalledTile::Extents* const above = _from.parent ? &_from.parent->extents : nullptr;
-    _fit.extents.bin = extents;
-    _fit.extents.edges = core::TileEdges::of(extents, above ? &above->bin : nullptr, above ? &above->edges : nullptr);
-}
-
-// The bin of a tile of which no more is known than its surface and the declared heights.
-AnalyticBin Fitting::rangedBin(const TileSurface& surface) const {
-    const core::GeodeticBin& extents = surface.bin.bin();
-    double sag = core::crackDepth(_ellipsoid, extents, _fit.extents.edges);
-    core::Interval altitude = extents.altitude();
-    if (!_isLeaf) {
-        sag = std::max(sag, core::sagOfFinerMeshes(_ellipsoid, extents, surface.isScalable));
-        altitude.upper = std::max(altitude.upper, _heights.upper);
-    }
-    altitude.lower = std::min(altitude.lower, _heights.lower - sag);
-    AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
-    // in latitude and in longitude
-    if (!_isLeaf) bin.setMargin(bin.margin() + 2.0 * roundingOf(_ellipsoid));
-    return bin;
-}
-
-void Fitting::fitSurface() {
-    const TileSurface surface = meshSurface();
-    _fit.isTerrain = surface.bin.valid();
-    if (!_fit.isTerrain && !surface.isEmpty && _above.valid()) report(Finding::Unverifiable);
-    if (!_fit.isTerrain) return;
-    standIn(surface.bin.bin());
-    _fit.extents.isMeasured = true;
-    _fit.surface = surface.bin;
-    _fit.isScalable = surface.isScalable;
-    // what is drawn, and nothing else; exaggeration would not treat skirts as heights
-    const core::Interval& altitude = surface.bin.bin().altitude();
-    const bool isScaled = surface.isScalable && _shape.verticalScale != 1.0;
-    const bool isDrawnAsRead = !isScaled && !_shape.areBoundariesEqual;
-    _fit.isDeclared = isDrawnAsRead && !_isLeaf;
-    if (countsSkirts()) _fit.skirt = surface.skirt;
-    _fit.bin = _isLeaf && isDrawnAsRead
-                   ? withAltitude(surface.bin, {altitude.lower - surface.skirt + _fit.skirt, altitude.upper}, 0.0)
-                   : rangedBin(surface);
-}
-
-// The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their edges.
-AnalyticBin Fitting::dippedBin(const AnalyticBin& bin) const {
-    const double relief = _heights.width() + bin.sag();
-    const double dip = core::dipBehindEdge(_ellipsoid, bin.bin(), _fit.extents.edges, relief);
-    const core::Interval& altitude = bin.bin().altitude();
-    return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
-}
-
-// Returns: nullptr when the index does not know the tile as it is.
-const BinIndex::Entry* Fitting::indexEntry() const {
-    const BinIndex::Entry* const entry = _from.index ? _from.index->find(_tile.frame.file, _tile.ordinal) : nullptr;
-    return entry && entry->fingerprint == tileFingerprint(_tile) ? entry : nullptr;
-}
-
-void Fitting::fitIndexed(const BinIndex::Entry& entry) {
-    _fit.isTerrain = true;
-    _fit.isScalable = hasTerrainTile(_tile);
-    standIn(entry.bin.bin());
-    _fit.surface = surfaceAbove(entry.ownLow, entry.bin);
-    _fit.bin = dippedBin(entry.bin);
-    if (!_fit.extents.edges.areOnBorder()) return;
-    // an index says nothing of skirts
-    const TileSurface surface = meshSurface();
-    _fit.skirt = surface.skirt;
-    if (!surface.bin.valid()) _fit.bin.init();
-}
-
-// Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
-AnalyticBin Fitting::withHeights(const AnalyticBin& bin) const {
-    if (!bin.valid()) return bin;
-    const core::Interval& own = bin.bin().altitude();
-    const core::Interval all{std::min(own.lower, _heights.lower - bin.sag()), std::max(own.upper, _heights.upper)};
-    return withAltitude(bin, all, 0.0);
-}
-
-// A terrain tile whose technique is not OSG's own and may draw anything.
-void Fitting::fitUnknown() {
-    report(Finding::UnknownTechnique);
-    const TileSurface surface = meshSurface();
-    if (surface.bin.valid()) standIn(surface.bin.bin());
-    _fit.isScalable = true;
-    _fit.isTerrain = true;
-}
-
-// A bin that is stored with a tile also stands for what is paged below it and not loaded yet. Content that turns out to
-// be larger expands it and its ancestors. Returns: the tile's own surface, where it is known.
-AnalyticBin Fitting::checkStored(const TileSurface& own) {
-    // other sample ratios make other meshes than those that the bin was made of
-    const AnalyticBin surface = own.isScalable && _shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
-    const bool isWithinBin = isHeld(_fit.bin, surface, surface.sag());
-    if (!isWithinBin) {
-        // a mesh that stands elsewhere may leave the place of the stored bin empty
-        const AnalyticBin column(_fit.bin.bin().withAltitude(surface.bin().altitude()), _fit.bin.margin());
-        if (!nearlyHolds(column, surface, surface.sag(), _ellipsoid)) report(Finding::MovedTile);
-    }
-    if (!isWithinBin || (_from.hasNewContent && surface.valid())) _fit.bin.expandBy(surface);
-    const AnalyticBin& drawn = _fit.bin.valid() ? _fit.bin : surface;
-    const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
-    if (!isWithinBin || !isHeld(_above, drawn, sag)) report(Finding::LargerThanStored, drawn);
-    return surface;
-}
-
-// The same of a tile that has no bin of its own stored, below one that has.
-void Fitting::checkUnstored(const AnalyticBin& shown, double sag) {
-    if (!isHeld(_above, shown, sag)) report(Finding::LargerThanStored, shown);
-}
-
-// By what was found of the tile before. That may have been in another place, below other tiles.
-void Fitting::correct() {
-    const Widening& correction = _from.correction;
-    if (correction.isBoundless && _above.valid()) report(Finding::Unverifiable);
-    checkUnstored(correction.bin, 0.0);
-    if (correction.any()) _fit.bin = correction.widened(_fit.bin);
-}
-
-// A stored lowest altitude is closer than the bound of a mesh's sag; it is used where the mesh's vertices allow it.
-AnalyticBin Fitting::shownSurface(const AnalyticBin& surface) const {
-    const auto low = storedSurfaceLow(*_tile.node);
-    if (!low) return surface;
-    const bool isPossible = !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() +
-                                                            surface.margin() + roundingOf(_ellipsoid);
-    return isPossible ? surfaceAbove(*low, _fit.bin) : surface;
-}
-
-void Fitting::fitStored() {
-    const TileSurface own = meshSurface();
-    if (!own.bin.valid() && !own.isEmpty) return report(Finding::Unverifiable);
-    _fit.bin = storedBin(*_tile.node);
-    _fit.isScalable = hasTerrainTile(_tile);
-    _fit.isTerrain = true;
-    const AnalyticBin surface = checkStored(own);
-    if (!_fit.bin.valid()) return;
-    _fit.surface = shownSurface(surface);
-    standIn(_fit.bin.bin());
-    if (countsSkirts()) _fit.skirt = own.skirt;
-    correct();
-    _fit.stored = _fit.bin;
-}
-
-void Fitting::fitUnstored() {
-    // an index does not know how far skirts hang, nor meshes of other sample ratios
-    const bool isIndexFit = _from.options.skirts == SkirtUse::Cracks && _shape.sampleRatio == 1.0;
-    const BinIndex::Entry* const entry = isIndexFit ? indexEntry() : nullptr;
-    if (entry && entry->bin.valid()) {
-        fitIndexed(*entry);
-        checkUnstored(_fit.bin, _fit.bin.sag());
-    } else {
-        fitSurface();
-        if (isIndexFit && _fit.isTerrain && !_isLeaf && !_shape.areBoundariesEqual) report(Finding::IndexWanted);
-        if (isIndexFit && _fit.isTerrain && _from.index && !entry) report(Finding::OtherThanIndexed, _fit.bin);
-        if (!_fit.isScalable || _shape.sampleRatio == 1.0) checkUnstored(_fit.surface, _fit.surface.sag());
-    }
-    if (!_fit.bin.valid()) return;
-    _fit.bin.setBin(core::withGaps(_ellipsoid, _fit.bin.bin(), _fit.extents.edges));
-    correct();
-}
-
-// Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
-bool Fitting::leavesHeights() const {
-    const core::Interval& altitude = _fit.surface.bin().altitude();
-    return altitude.upper > _heights.upper || altitude.lower + _fit.surface.sag() < _heights.lower;
-}
-
-// Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
-bool Fitting::leavesExtents() const {
-    const InstalledTile* above = _from.parent;
-    while (above && !above->ordinal) above = above->parent.get();
-    const core::GeodeticBin& own = (_fit.extents.isMeasured ? _fit.surface : _fit.bin).bin();
-    if (!above || !above->extents.isMeasured || own.empty()) return false;
-    const core::Interval &latitude = above->extents.bin.latitude(), &longitude = above->extents.bin.longitude();
-    const double angle = roundingOf(_ellipsoid) / _ellipsoid.polarRadius();
-    const double eastward =
-        angle / std::max(std::cos(std::min(std::abs(latitude.lower), std::abs(latitude.upper))), 1e-3);
-    return !core::GeodeticBin({latitude.lower - angle, latitude.upper + angle},
-                              {longitude.lower - eastward, longitude.upper + eastward}, own.altitude())
-                .contains(own);
-}
-
-TileFit Fitting::result() && {
-    if (!_shape.isKnown() && hasTerrainTile(_tile)) {
-        fitUnknown();
-        return std::move(_fit);
-    }
-    hasStoredBin(*_tile.node) ? fitStored() : fitUnstored();
-    if (_fit.surface.valid() && (_from.hasNewContent || leavesHeights())) report(Finding::Larger, _fit.surface);
-    if (leavesExtents()) report(Finding::Larger, _fit.extents.isMeasured ? _fit.surface : _fit.bin);
-    if (_shape.areBoundariesEqual && _fit.isScalable) {
-        _fit.bin = withHeights(_fit.bin);
-        _fit.surface = withHeights(_fit.surface);
-    }
-    if (_fit.isScalable && _shape.techniqueMargin > 0.0) {
-        _fit.isInPlace = false;
-        for (AnalyticBin* const bin : {&_fit.bin, &_fit.surface})
-            bin->setMargin(bin->margin() + _shape.techniqueMargin);
-    }
-    return std::move(_fit);
-}
 
 // Looks for a drawable in a leaf that spans a good part of the tile above it, as ground does. Objects on the ground do
 // not, however far they stand apart.

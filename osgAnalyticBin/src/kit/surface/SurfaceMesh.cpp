@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <osg/ShapeDrawable>
 #include <osg/TriangleFunctor>
+#include <osg/TriangleIndexFunctor>
 
 #include <algorithm>
 #include <cmath>
@@ -61,11 +62,15 @@ bool readVertices(const osg::Array& array, const osg::Matrixd& localToEcef, Surf
     return false;
 }
 
-template <class Elements>
-void addElements(const Elements& elements, std::vector<std::uint32_t>& triangles) {
-    const std::size_t whole = elements.size() / 3 * 3;
-    triangles.insert(triangles.end(), elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(whole));
-}
+struct IndexSink {
+    std::vector<std::uint32_t>* triangles = nullptr;
+
+    void operator()(unsigned int a, unsigned int b, unsigned int c) const {
+        triangles->push_back(a);
+        triangles->push_back(b);
+        triangles->push_back(c);
+    }
+};
 
 // Lines and points, as pairs and single vertices.
 void addPoints(const osg::PrimitiveSet& primitives, std::vector<std::uint32_t>& triangles) {
@@ -74,15 +79,6 @@ void addPoints(const osg::PrimitiveSet& primitives, std::vector<std::uint32_t>& 
         const unsigned int next = i + 1 < count ? i + 1 : 0;
         triangles.insert(triangles.end(), {primitives.index(i), primitives.index(next), primitives.index(i)});
     }
-}
-
-bool isOfPointsOrLines(GLenum mode) {
-    return mode == GL_POINTS || mode == GL_LINES || mode == GL_LINE_STRIP || mode == GL_LINE_LOOP;
-}
-
-bool isOfTriangles(GLenum mode) {
-    return mode == GL_TRIANGLES || mode == GL_TRIANGLE_STRIP || mode == GL_TRIANGLE_FAN || mode == GL_QUADS ||
-           mode == GL_QUAD_STRIP || mode == GL_POLYGON;
 }
 
 // Whether ranges of vertices end where the vertices do. A few bytes of a file may claim billions; indices take as much
@@ -103,25 +99,6 @@ bool isWithinVertices(const osg::PrimitiveSet& primitives, std::int64_t vertices
     return count == 0 || (first >= 0 && count > 0 && first + count <= vertices);
 }
 
-// OSG's own TriangleIndexFunctor reads past the indices of an incomplete last triangle.
-template <class IndexAt>
-void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vector<std::uint32_t>& triangles) {
-    const auto add = [&](unsigned int a, unsigned int b, unsigned int c) {
-        triangles.insert(triangles.end(), {at(a), at(b), at(c)});
-    };
-    if (mode == GL_TRIANGLES) {
-        for (unsigned int i = 2; i < count; i += 3) add(i - 2, i - 1, i);
-    } else if (mode == GL_TRIANGLE_STRIP) {
-        for (unsigned int i = 2; i < count; ++i) i % 2 ? add(i - 2, i, i - 1) : add(i - 2, i - 1, i);
-    } else if (mode == GL_QUADS) {
-        for (unsigned int i = 3; i < count; i += 4) add(i - 3, i - 2, i - 1), add(i - 3, i - 1, i);
-    } else if (mode == GL_QUAD_STRIP) {
-        for (unsigned int i = 3; i < count; i += 2) add(i - 3, i - 2, i - 1), add(i - 2, i, i - 1);
-    } else {
-        for (unsigned int i = 2; i < count; ++i) add(0, i - 1, i);
-    }
-}
-
 // Others may draw a part of their indices, by commands, or several strips one after the other.
 bool drawsAllIndices(const osg::PrimitiveSet& primitives) {
     return primitives.getType() >= osg::PrimitiveSet::DrawArraysPrimitiveType &&
@@ -132,34 +109,19 @@ bool drawsAllIndices(const osg::PrimitiveSet& primitives) {
 bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
     if (!drawsAllIndices(primitives) || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
-    if (isOfPointsOrLines(mode)) {
+    if (mode > GL_POLYGON) return false;
+    if (mode <= GL_LINE_STRIP) {
         addPoints(primitives, triangles);
         return true;
     }
-    if (!isOfTriangles(mode)) return false;
-    if (mode == GL_TRIANGLES) {
-        if (const auto* shorts = dynamic_cast<const osg::DrawElementsUShort*>(&primitives)) {
-            addElements(*shorts, triangles);
-            return true;
-        }
-        if (const auto* ints = dynamic_cast<const osg::DrawElementsUInt*>(&primitives)) {
-            addElements(*ints, triangles);
-            return true;
-        }
-    }
-    const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&primitives);
-    if (!lengths) {
-        addTriangles(
-            mode, primitives.getNumIndices(), [&](unsigned int i) { return primitives.index(i); }, triangles);
-        return true;
-    }
-    auto first = static_cast<unsigned int>(lengths->getFirst());
-    for (const GLsizei length : *lengths) {
-        const auto count = static_cast<unsigned int>(length);
-        addTriangles(
-            mode, count, [first](unsigned int i) { return first + i; }, triangles);
-        first += count;
-    }
+    const unsigned int count = primitives.getNumIndices();
+    osg::TriangleIndexFunctor<IndexSink> functor;
+    functor.triangles = &triangles;
+    // OSG reads past the indices of an incomplete last triangle
+    const bool isCutOff = mode == GL_TRIANGLES && count % 3 != 0 && primitives.getDrawElements();
+    if (!isCutOff) primitives.accept(functor);
+    for (unsigned int i = 2; isCutOff && i < count; i += 3)
+        functor(primitives.index(i - 2), primitives.index(i - 1), primitives.index(i));
     return true;
 }
 
