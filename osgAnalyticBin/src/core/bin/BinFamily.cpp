@@ -84,10 +84,17 @@ void BinFamily::clear(std::size_t i) noexcept {
 
 bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept {
     assert(_data.filled >> i & 1);
+    const PlaneMask asked = undecided & planes.all(), second = asked & (asked - 1);
+    const bool areTwo = second != 0 && (second & (second - 1)) == 0;
+    if (!areTwo) return false;
+    const Plane one = planes[firstBit(asked)], other = planes[firstBit(second)];
     const double* const numbers = _data.numbers + i;
-    if (_data.exact >> i & 1)
-        return core::isSeparated(ExactGeodeticBin(numbers, _data.stride), planes, planes.size(), undecided);
-    return core::isSeparated(QuadraticBin(numbers, _data.stride), planes, planes.size(), undecided);
+    const auto at = [&](std::size_t number) { return numbers[number * _data.stride]; };
+    // before all numbers are read: nothing parts the middle from the wedge
+    const glm::dvec3 middle(at(row::CenterX), at(row::CenterY), at(row::CenterZ));
+    if (one.distance(middle) >= 0.0 && other.distance(middle) >= 0.0) return false;
+    if (_data.exact >> i & 1) return core::isSeparated(ExactGeodeticBin(numbers, _data.stride), one, other);
+    return core::isSeparated(QuadraticBin(numbers, _data.stride), one, other);
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {

@@ -8,8 +8,10 @@
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "../cull/CullCallbacks.h"
+#include "../cull/DrawnState.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
+#include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../surface/TilePlates.h"
@@ -26,6 +28,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/TileFinder.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -34,8 +37,12 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -119,370 +126,417 @@ bool hasTileBelow(osg::Node& subgraph) {
     return has;
 }
 
-}  // namespace
-
-// The database whose tiles this installer puts bins on.
-class BinInstaller::InstallingDatabase final : public Database {
+// Installs bins on the loaded part of a database; see installBins().
+class BinInstaller : public TileFinder {
 public:
-    using Database::Database;
+    explicit BinInstaller(const CullOptions& options, const BinIndex* index = nullptr, bool keepsDatabases = false)
+        : TileFinder(frameBy(options), options.ground),
+          _options(options),
+          _keepsDatabases(keepsDatabases),
+          _index(index),
+          _coverage(std::make_shared<Coverages>()) {}
+    ~BinInstaller() override { takeOff(_nested); }
+    META_NodeVisitor(osgAnalyticBin, BinInstaller);
 
-    std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override {
-        BinInstaller installer(options());
-        installer.continueBelow(this, frame, parent);
-        content.accept(installer);
-        installer.finish();
-        return installer.installed();
+    // Number of callbacks installed so far.
+    [[nodiscard]] std::size_t installed() const { return _installed + _lods; }
+
+    // Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from
+    // the root.
+    void installAt(osg::Node& root) {
+        // these have databases of their own
+        const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) || isPhotogrammetrySet(root);
+        if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
+        if (!isGlobe && !_keepsDatabases) removeDatabase(root);
+        if (!isGlobe && !installsBins()) reportGapAbove(root);
+        if (_database) _database->setOptions(_options);
+        const bool isNamed = !isGlobe && _options.globe;
+        if (isNamed) beginNamedGlobe(root);
+        root.accept(*this);
+        if (_options.method == Method::None) {
+            takeOffFirst<NoCulling>(root);
+            const osg::ref_ptr<NoCulling> callback = new NoCulling;
+            putInFront(root, *callback);
+        }
+        // the tiles of a globe without any are still to come
+        if (isNamed && _installed == 0 && _paging.empty()) _coverage->clear();
+        finish();
+        // tiles may be added also while other methods cull
+        if (!isGlobe && _database && (installsBins() || isNamed))
+            attachDatabase(root, *_database, isNamed && installsBins());
     }
-    void watch(osg::Group& group) override { watchFamily(group); }
-    void refit(osg::Node& root) override {
-        BinInstaller installer(options());
-        installer.refit(root, *this);
+
+    void apply(osg::Node& node) override {
+        const DeclaredHorizon horizon(node, _options);
+        TileFinder::apply(node);
     }
-    void installOnClone(osg::Node& root) override {
-        BinInstaller installer(options());
-        installer.setIndex(index().get());
-        installer.installAt(root);
-        if (const osg::ref_ptr<Database> own = attachedDatabase(root)) own->setMaking(making().get());
+
+    void apply(osg::Transform& node) override {
+        const DeclaredHorizon horizon(node, _options);
+        TileFinder::apply(node);
+    }
+
+    void apply(osg::PagedLOD& node) override {
+        const DeclaredHorizon horizon(node, _options);
+        const Scoped inMesh(_isInMesh, false);
+        TileFinder::apply(node);
+    }
+
+    void apply(osg::CoordinateSystemNode& node) override {
+        const DeclaredHorizon horizon(node, _options);
+        const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
+        if (isForeign && installsBins()) Database::report(*recordBetween(), Finding::Unverifiable);
+        const bool isBroken = installsBins() && isGlobeBroken(node);
+        const Scoped method(_options.method, isBroken ? Method::Sphere : _options.method);
+        if (isBroken) {
+            OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
+                     << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
+        }
+        const Scoped parent(_parent, isForeign ? nullptr : _parent);
+        const bool isRefit = _refitted.valid();
+        osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
+        if (own && !own->isAttachedTo(node)) own = nullptr;
+        const bool isKept = !isRefit && own;
+        _refitted = nullptr;
+        if (isKept) own->setOptions(_options);
+        const osg::ref_ptr<Database> replaced = databaseOf(node);
+        const bool hasMovedTile = replaced && replaced->has(Finding::MovedTile);
+        if (!isRefit && replaced && replaced != own && replaced->isAttachedTo(node)) replaced->setRemoved();
+        if (!isRefit) detachDatabase(node);
+        if (!own) {
+            const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
+                node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
+            own = newDatabase(ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node));
+            own->setRoot(node);
+            // new bins do not tell where a tile stood before
+            if (hasMovedTile) own->report(Finding::MovedTile, frame().file);
+        }
+        const Scoped index(_index, isKept ? own->index() : _index);
+        const Scoped database(_database, own);
+        const Scoped paging(_paging, PagedReads());
+        const Scoped coverage(_coverage, std::make_shared<Coverages>());
+        (*_coverage)[{nullptr, frame().file}].expectGlobe();
+        const std::size_t before = _installed;
+        TileFinder::apply(node);
+        // photogrammetry alone is no globe with gaps, and neither is one whose tiles are still to come
+        if (!isKept && _installed == before && _paging.empty()) _coverage->clear();
+        finish();
+        if (isRefit) return;
+        const bool hasTiles = _installed > before || !_paging.empty() || _options.globe;
+        if (installsBins() && hasTiles) return attachDatabase(node, *own, true);
+        // tiles that are on their way may have bins
+        if (isKept) attachDatabase(node, *own, false);
     }
 
 protected:
-    ~InstallingDatabase() override = default;
+    void visitTile(FoundTile& tile) override {
+        const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
+        // the new bin is where the tile stands now; there is a gap where it stood
+        if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
+        removeCallbacks(tile, _nested);
+        takeOffFirst<NoCulling>(*tile.node);
+        if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent);
+        visitWithoutBin(*tile.node, true);
+    }
+
+    void visitOther(osg::Node& node) override {
+        if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
+        if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
+        // it may have been a tile when bins were last installed
+        if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node))
+            removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
+        // some groups compute their bounds without their children
+        const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
+        if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
+            ContentWatch::place(node, {}, _parent, _parent);
+        } else {
+            ContentWatch::remove(node);
+        }
+        TileFamily::remove(node);
+        if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
+        noteBetween(node);
+        visitWithoutBin(node, false);
+    }
+
+    void visitMoving(osg::Transform& node) override {
+        if (isPhotogrammetrySet(node)) return visitSet(node);
+        removeCallbacksBelow(node, _nested);
+        if (installsBins()) tellAbove(drawnStateBelow(node, stateRules()));
+        if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);
+    }
+
+    // It keeps OSG's own culling; how deep it lies is not known.
+    void visitTooDeep(osg::Node&) override {
+        if (installsBins()) database().report(Finding::TooDeep, frame().file);
+    }
+
+private:
+    // The database whose tiles this installer puts bins on.
+    class InstallingDatabase final : public Database {
+    public:
+        using Database::Database;
+
+        std::size_t install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override {
+            BinInstaller installer(options());
+            installer.continueBelow(this, frame, parent);
+            content.accept(installer);
+            installer.finish();
+            return installer.installed();
+        }
+        void watch(osg::Group& group) override { watchFamily(group); }
+        void refit(osg::Node& root) override {
+            BinInstaller installer(options());
+            installer.refit(root, *this);
+        }
+        void installOnClone(osg::Node& root) override {
+            BinInstaller installer(options(), index().get());
+            installer.installAt(root);
+            if (const osg::ref_ptr<Database> own = attachedDatabase(root)) own->setMaking(making().get());
+        }
+
+    protected:
+        ~InstallingDatabase() override = default;
+    };
+
+    // Prepares for a file that is paged below a tile of the database (`parent` null: below no tile).
+    void continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent) {
+        setFrame(frame);
+        _isReading = true;
+        _database = database;
+        _index = database->index();
+        _parent = parent;
+        if (!parent || !parent->ordinal) return;
+        Coverage& coverage = (*_coverage)[{parent, frame.file}];
+        coverage.expect(*parent);
+        coverage.setVisited();
+    }
+
+    // Makes the root of a scene without a CoordinateSystemNode that of CullOptions::globe.
+    void beginNamedGlobe(osg::Node& root) {
+        if (!_database) _database = newDatabase(frame().ellipsoid, nullptr);
+        _database->setRoot(root);
+        (*_coverage)[{nullptr, frame().file}].expectGlobe();
+    }
+
+    // Fits the loaded tiles of an installed database again.
+    void refit(osg::Node& node, Database& database) {
+        _index = database.index();
+        // globes keep their databases
+        _keepsDatabases = true;
+        if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
+            _refitted = &database;
+        } else {
+            _database = &database;
+        }
+        node.accept(*this);
+        placeFamilies();
+        database.widenLoaded();
+        _refitted = nullptr;
+    }
+
+    // Checks whether the tiles of each file cover their parent.
+    void finish() {
+        for (const auto& [file, coverage] : *_coverage) {
+            if (installsBins()) coverage.report(file.second, database());
+        }
+        _coverage->clear();
+        placeFamilies();
+        if (!_isReading && _database) _database->widenLoaded();
+    }
+
+    // Called after the walk: families that are placed during it would need more stack in deep scenes. From below
+    // upwards.
+    void placeFamilies() {
+        for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
+            osg::Node& group = **at;
+            if (!TileFamily::place(group)) continue;
+            Database::trustMeshes(group);
+            watchFamily(group);
+        }
+        _groups.clear();
+    }
+
+    // It notices where the application takes the watch of a tile away.
+    static void watchFamily(osg::Node& group) {
+        if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group))
+            ContentWatch::place(group, {}, nullptr, nullptr);
+    }
+
+    [[nodiscard]] bool installsBins() const {
+        return _options.method != Method::Sphere && _options.method != Method::None;
+    }
+
+    [[nodiscard]] Database& database() {
+        if (!_database) _database = newDatabase(new osg::EllipsoidModel, nullptr);
+        return *_database;
+    }
+
+    [[nodiscard]] osg::ref_ptr<Database> newDatabase(const osg::EllipsoidModel* ellipsoid,
+                                                     osgTerrain::Terrain* terrain) const {
+        return new InstallingDatabase(_options, ellipsoid, terrain, _index.get());
+    }
+
+    // Tells the database why not.
+    [[nodiscard]] bool mayHaveBin(const FoundTile& tile) {
+        if (isInstanced(*tile.node, tile.frame, database().root())) {
+            database().report(Finding::StrayTile, tile.frame.file);
+            return false;
+        }
+        const osg::EllipsoidModel* const ground = tile.frame.ellipsoid.get();
+        if (hasStoredBin(*tile.node)) return !ground || database().decideGround(*ground);
+        const bool isOnGlobe = ground && !isMapPlane(*ground);
+        if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
+        return ground && database().decideGround(*ground);
+    }
+
+    // Of a node that is no tile. Not inlined, to leave stack for scenes that are nested deep.
+    [[gnu::noinline]] void noteBetween(const osg::Node& node) const {
+        if (installsBins() && _parent && !_isInMesh) tellAbove(drawnStateAt(node, stateRules()));
+    }
+
+    // Tells the tiles above of something below them.
+    // What stands above all tiles is asked in every cull traversal.
+    void tellAbove(const DrawnState& drawn) const {
+        if (_parent) _parent->doubtUpwards(reasonsAbove(drawn));
+    }
+
+    [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
+
+    void visitWithoutBin(osg::Node& node, bool isTile) {
+        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
+            _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
+        takeOffFirst<NoCulling>(node);
+        // a tile's own meshes are not visited
+        if (isTile && installsBins()) tellAbove(drawnStateOfTile(node));
+        const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
+        traverseBelow(node);
+    }
+
+    [[nodiscard]] DrawnState drawnStateOfTile(osg::Node& node) const {
+        DrawnState drawn = drawnStateAt(node, stateRules());
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
+            if (!isPaged(*paged, i)) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
+        }
+        return drawn;
+    }
+
+    // Also below other nodes.
+    void visitSet(osg::Group& set) {
+        removeCallbacksBelow(set, _nested);
+        _lods += installOnSet(set, _options);
+    }
+
+    void install(FoundTile& tile, bool hasNewContent) {
+        const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
+        const TerrainShape shape = database().fittedShape();
+        const FitSources sources{database().options(),
+                                 ellipsoid,
+                                 database().index(),
+                                 _parent.get(),
+                                 database().correction(tile.frame.file, tile.ordinal),
+                                 hasNewContent};
+        const TileFit fit = fitTile(tile, sources, shape);
+        const osg::ref_ptr<InstalledTile> installed =
+            new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
+        installed->extents = fit.extents;
+        installed->stored = fit.stored;
+        for (const auto& [finding, drawn] : fit.findings) Database::report(*installed, finding, drawn);
+        if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
+
+        const osg::ref_ptr<AnalyticBinCullCallback> callback =
+            new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
+        osg::Node& culled = culledNode(tile, _isReading);
+        if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
+        if (fit.isScalable) callback->setTerrainShape(shape);
+        if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
+        callback->setSurface(fit.surface);
+        placeCallback(tile, culled, *callback, *installed);
+        if (fit.isDeclared) installed->doubt(InstalledTile::Declared);
+        const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
+        if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
+            installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
+        ++_installed;
+        noteDrawn(tile, *installed);
+        noteCover(tile, sources, fit, *installed);
+        noteCovered(tile, fit, *installed);
+        visitChildren(tile, *installed);
+    }
+
+    // A tile that the application has added to a database with gaps, where the horizon is not given, hides nothing: its
+    // mesh is not looked at so closely.
+    void noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit, InstalledTile& installed) {
+        const bool isBelowNone = _isReading && !_parent;
+        const bool isGiven = sources.options.horizonUse == HorizonUse::Given;
+        if (isBelowNone && !isGiven && database().has(Finding::Gap)) return;
+        const core::MeshCover cover = coverBy(tile, sources, database().fittedShape(), fit);
+        installed.setCover(cover);
+        if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
+    }
+
+    // Whether an ancestor of the visited node has a stored bin, which must contain it.
+    [[nodiscard]] bool isBelowStored() const { return _parent && _parent->stored.valid(); }
+
+    // A record for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
+    // _parent.
+    [[nodiscard]] osg::ref_ptr<InstalledTile> recordBetween() {
+        const osg::ref_ptr<InstalledTile> record =
+            new InstalledTile(database(), _parent.get(), frame().file, std::nullopt);
+        record->stored = _parent->stored;
+        return record;
+    }
+
+    // Tiles within the mesh of another cover nothing beside it.
+    void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed) {
+        Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
+        coverage.setVisited();
+        if (!_isBelowSelection && !_isInMesh) coverage.add(installed.place(), fit.isInPlace);
+        for (const std::string& file : tile.pagedFiles) (*_coverage)[{&installed, file}].expect(installed);
+    }
+
+    void noteDrawn(const FoundTile& tile, InstalledTile& installed) {
+        DrawnState drawn = drawnStateOf(*tile.node, stateRules());
+        for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
+        // a class of the application's may show anything of a tile
+        const bool isPaged = dynamic_cast<const osg::PagedLOD*>(tile.node.get());
+        if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node)) drawn.hides = drawn.obeysDepth = false;
+        if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
+        installed.doubtUpwards(reasonsAbove(drawn));
+    }
+
+    void visitChildren(const FoundTile& tile, InstalledTile& installed) {
+        auto* const paged = dynamic_cast<osg::PagedLOD*>(tile.node.get());
+        if (paged) _paging.follow(*paged, frame(), database(), &installed, true);
+        const Scoped inMesh(_isInMesh, !paged);
+        const Scoped below(_parent, osg::ref_ptr<InstalledTile>(&installed));
+        traverseBelow(*tile.node);
+    }
+
+    CullOptions _options;
+    bool _keepsDatabases;
+    bool _isReading = false;         // the content of a file, not merged into the scene yet
+    bool _isInMesh = false;          // within a tile's own mesh
+    bool _isBelowSelection = false;  // below a node that may not draw all of its children
+    osg::ref_ptr<const BinIndex> _index;
+    osg::ref_ptr<Database> _database;     // the visited one
+    osg::ref_ptr<Database> _refitted;     // about to be fitted again
+    osg::ref_ptr<InstalledTile> _parent;  // the parent tile of the visited node
+    PagedReads _paging;
+    // By the tile that pages the file (null: none) and the file's name, which may be the same for several tiles.
+    using Coverages = std::map<std::pair<const InstalledTile*, std::string>, Coverage>;
+    std::shared_ptr<Coverages> _coverage;
+    std::size_t _installed = 0;
+    std::size_t _lods = 0;            // of photogrammetry sets
+    std::vector<osg::Node*> _groups;  // candidates for families
+    NestedCallbacks _nested;          // taken off when the installer is done
 };
 
-osg::ref_ptr<Database> BinInstaller::newDatabase(const osg::EllipsoidModel* ellipsoid,
-                                                 osgTerrain::Terrain* terrain) const {
-    return new InstallingDatabase(_options, ellipsoid, terrain, _index.get());
-}
+}  // namespace
 
-BinInstaller::BinInstaller(const CullOptions& options)
-    : TileFinder(frameBy(options), options.ground), _options(options), _coverage(std::make_shared<Coverages>()) {}
-
-BinInstaller::~BinInstaller() {
-    takeOff(_nested);
-}
-
-void BinInstaller::continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent) {
-    setFrame(frame);
-    _isReading = true;
-    _database = database;
-    _index = database->index();
-    _parent = parent;
-    if (!parent || !parent->ordinal) return;
-    Coverage& coverage = (*_coverage)[{parent, frame.file}];
-    coverage.expect(*parent);
-    coverage.setVisited();
-}
-
-void BinInstaller::refit(osg::Node& node, Database& database) {
-    _index = database.index();
-    // globes keep their databases
-    keepDatabases();
-    if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
-        _refitted = &database;
-    } else {
-        _database = &database;
-    }
-    node.accept(*this);
-    placeFamilies();
-    database.widenLoaded();
-    _refitted = nullptr;
-}
-
-void BinInstaller::finish() {
-    for (const auto& [file, coverage] : *_coverage) {
-        if (installsBins()) coverage.report(file.second, database());
-    }
-    _coverage->clear();
-    placeFamilies();
-    if (!_isReading && _database) _database->widenLoaded();
-}
-
-// Called after the walk: families that are placed during it would need more stack in deep scenes. From below upwards.
-void BinInstaller::placeFamilies() {
-    for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
-        osg::Node& group = **at;
-        if (!TileFamily::place(group)) continue;
-        Database::trustMeshes(group);
-        watchFamily(group);
-    }
-    _groups.clear();
-}
-
-// It notices where the application takes the watch of a tile away.
-void BinInstaller::watchFamily(osg::Node& group) {
-    if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group))
-        ContentWatch::place(group, {}, nullptr, nullptr);
-}
-
-bool BinInstaller::installsBins() const {
-    return _options.method != Method::Sphere && _options.method != Method::None;
-}
-
-Database& BinInstaller::database() {
-    if (!_database) _database = newDatabase(new osg::EllipsoidModel, nullptr);
-    return *_database;
-}
-
-// Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from the
-// root.
-void BinInstaller::installAt(osg::Node& root) {
-    // these have databases of their own
-    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) || isPhotogrammetrySet(root);
-    if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
-    if (!isGlobe && !_keepsDatabases) removeDatabase(root);
-    if (!isGlobe && !installsBins()) reportGapAbove(root);
-    if (_database) _database->setOptions(_options);
-    const bool isNamed = !isGlobe && _options.globe;
-    if (isNamed) beginNamedGlobe(root);
-    root.accept(*this);
-    if (_options.method == Method::None) {
-        takeOffFirst<NoCulling>(root);
-        const osg::ref_ptr<NoCulling> callback = new NoCulling;
-        putInFront(root, *callback);
-    }
-    // the tiles of a globe without any are still to come
-    if (isNamed && _installed == 0 && _paging.empty()) _coverage->clear();
-    finish();
-    // tiles may be added also while other methods cull
-    if (!isGlobe && _database && (installsBins() || isNamed))
-        attachDatabase(root, *_database, isNamed && installsBins());
-}
-
-void BinInstaller::beginNamedGlobe(osg::Node& root) {
-    if (!_database) _database = newDatabase(frame().ellipsoid, nullptr);
-    _database->setRoot(root);
-    (*_coverage)[{nullptr, frame().file}].expectGlobe();
-}
-
-void BinInstaller::apply(osg::Node& node) {
-    const DeclaredHorizon horizon(node, _options);
-    TileFinder::apply(node);
-}
-
-void BinInstaller::apply(osg::Transform& node) {
-    const DeclaredHorizon horizon(node, _options);
-    TileFinder::apply(node);
-}
-
-void BinInstaller::apply(osg::PagedLOD& node) {
-    const DeclaredHorizon horizon(node, _options);
-    const Scoped inMesh(_isInMesh, false);
-    TileFinder::apply(node);
-}
-
-void BinInstaller::apply(osg::CoordinateSystemNode& node) {
-    const DeclaredHorizon horizon(node, _options);
-    const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
-    if (isForeign && installsBins()) Database::report(*recordBetween(), Finding::Unverifiable);
-    const bool isBroken = installsBins() && isGlobeBroken(node);
-    const Scoped method(_options.method, isBroken ? Method::Sphere : _options.method);
-    if (isBroken) {
-        OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
-                 << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
-    }
-    const Scoped parent(_parent, isForeign ? nullptr : _parent);
-    const bool isRefit = _refitted.valid();
-    osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
-    if (own && !own->isAttachedTo(node)) own = nullptr;
-    const bool isKept = !isRefit && own;
-    _refitted = nullptr;
-    if (isKept) own->setOptions(_options);
-    const osg::ref_ptr<Database> replaced = databaseOf(node);
-    const bool hasMovedTile = replaced && replaced->has(Finding::MovedTile);
-    if (!isRefit && replaced && replaced != own && replaced->isAttachedTo(node)) replaced->setRemoved();
-    if (!isRefit) detachDatabase(node);
-    if (!own) {
-        const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
-            node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
-        own = newDatabase(ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node));
-        own->setRoot(node);
-        // new bins do not tell where a tile stood before
-        if (hasMovedTile) own->report(Finding::MovedTile, frame().file);
-    }
-    const Scoped index(_index, isKept ? own->index() : _index);
-    const Scoped database(_database, own);
-    const Scoped paging(_paging, PagedReads());
-    const Scoped coverage(_coverage, std::make_shared<Coverages>());
-    (*_coverage)[{nullptr, frame().file}].expectGlobe();
-    const std::size_t before = _installed;
-    TileFinder::apply(node);
-    // photogrammetry alone is no globe with gaps, and neither is one whose tiles are still to come
-    if (!isKept && _installed == before && _paging.empty()) _coverage->clear();
-    finish();
-    if (isRefit) return;
-    const bool hasTiles = _installed > before || !_paging.empty() || _options.globe;
-    if (installsBins() && hasTiles) return attachDatabase(node, *own, true);
-    // tiles that are on their way may have bins
-    if (isKept) attachDatabase(node, *own, false);
-}
-
-void BinInstaller::visitTile(FoundTile& tile) {
-    const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
-    // the new bin is where the tile stands now; there is a gap where it stood
-    if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
-    removeCallbacks(tile, _nested);
-    takeOffFirst<NoCulling>(*tile.node);
-    if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent);
-    visitWithoutBin(*tile.node, true);
-}
-
-bool BinInstaller::mayHaveBin(const FoundTile& tile) {
-    if (isInstanced(*tile.node, tile.frame, database().root())) {
-        database().report(Finding::StrayTile, tile.frame.file);
-        return false;
-    }
-    const osg::EllipsoidModel* const ground = tile.frame.ellipsoid.get();
-    if (hasStoredBin(*tile.node)) return !ground || database().decideGround(*ground);
-    const bool isOnGlobe = ground && !isMapPlane(*ground);
-    if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
-    return ground && database().decideGround(*ground);
-}
-
-void BinInstaller::visitOther(osg::Node& node) {
-    if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
-    if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
-    // it may have been a tile when bins were last installed
-    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
-    // some groups compute their bounds without their children
-    const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
-    if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
-        ContentWatch::place(node, {}, _parent, _parent);
-    } else {
-        ContentWatch::remove(node);
-    }
-    TileFamily::remove(node);
-    if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
-    noteBetween(node);
-    visitWithoutBin(node, false);
-}
-
-void BinInstaller::noteBetween(const osg::Node& node) const {
-    if (installsBins() && _parent && !_isInMesh) tellAbove(drawnStateAt(node, stateRules()));
-}
-
-// What stands above all tiles is asked in every cull traversal.
-void BinInstaller::tellAbove(const DrawnState& drawn) const {
-    if (_parent) _parent->doubtUpwards(reasonsAbove(drawn));
-}
-
-void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
-        _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
-    takeOffFirst<NoCulling>(node);
-    // a tile's own meshes are not visited
-    if (isTile && installsBins()) tellAbove(drawnStateOfTile(node));
-    const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
-    traverseBelow(node);
-}
-
-DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
-    DrawnState drawn = drawnStateAt(node, stateRules());
-    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
-    for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
-        if (!isPaged(*paged, i)) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
-    }
-    return drawn;
-}
-
-// Also below other nodes.
-void BinInstaller::visitSet(osg::Group& set) {
-    removeCallbacksBelow(set, _nested);
-    _lods += installOnSet(set, _options);
-}
-
-void BinInstaller::visitMoving(osg::Transform& node) {
-    if (isPhotogrammetrySet(node)) return visitSet(node);
-    removeCallbacksBelow(node, _nested);
-    if (installsBins()) tellAbove(drawnStateBelow(node, stateRules()));
-    if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);
-}
-
-// It keeps OSG's own culling; how deep it lies is not known.
-void BinInstaller::visitTooDeep(osg::Node&) {
-    if (installsBins()) database().report(Finding::TooDeep, frame().file);
-}
-
-void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
-    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
-    const TerrainShape shape = database().fittedShape();
-    const FitSources sources{database().options(),
-                             ellipsoid,
-                             database().index(),
-                             _parent.get(),
-                             database().correction(tile.frame.file, tile.ordinal),
-                             hasNewContent};
-    const TileFit fit = fitTile(tile, sources, shape);
-    const osg::ref_ptr<InstalledTile> installed =
-        new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
-    installed->extents = fit.extents;
-    installed->stored = fit.stored;
-    for (const auto& [finding, drawn] : fit.findings) Database::report(*installed, finding, drawn);
-    if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
-
-    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
-    osg::Node& culled = culledNode(tile, _isReading);
-    if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
-    if (fit.isScalable) callback->setTerrainShape(shape);
-    if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
-    callback->setSurface(fit.surface);
-    placeCallback(tile, culled, *callback, *installed);
-    if (fit.isDeclared) installed->doubt(InstalledTile::Declared);
-    const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
-    if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
-        installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
-    ++_installed;
-    noteDrawn(tile, *installed);
-    noteCover(tile, sources, fit, *installed);
-    noteCovered(tile, fit, *installed);
-    visitChildren(tile, *installed);
-}
-
-// A tile that the application has added to a database with gaps, where the horizon is not given, hides nothing: its
-// mesh is not looked at so closely.
-void BinInstaller::noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit,
-                             InstalledTile& installed) {
-    const bool isBelowNone = _isReading && !_parent;
-    const bool isGiven = sources.options.horizonUse == HorizonUse::Given;
-    if (isBelowNone && !isGiven && database().has(Finding::Gap)) return;
-    const core::MeshCover cover = coverBy(tile, sources, database().fittedShape(), fit);
-    installed.setCover(cover);
-    if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
-}
-
-bool BinInstaller::isBelowStored() const {
-    return _parent && _parent->stored.valid();
-}
-
-osg::ref_ptr<InstalledTile> BinInstaller::recordBetween() {
-    const osg::ref_ptr<InstalledTile> record = new InstalledTile(database(), _parent.get(), frame().file, std::nullopt);
-    record->stored = _parent->stored;
-    return record;
-}
-
-// Tiles within the mesh of another cover nothing beside it.
-void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed) {
-    Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
-    coverage.setVisited();
-    if (!_isBelowSelection && !_isInMesh) coverage.add(installed.place(), fit.isInPlace);
-    for (const std::string& file : tile.pagedFiles) (*_coverage)[{&installed, file}].expect(installed);
-}
-
-void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
-    DrawnState drawn = drawnStateOf(*tile.node, stateRules());
-    for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
-    // a class of the application's may show anything of a tile
-    const bool isPaged = dynamic_cast<const osg::PagedLOD*>(tile.node.get());
-    if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node)) drawn.hides = drawn.obeysDepth = false;
-    if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
-    installed.doubtUpwards(reasonsAbove(drawn));
-}
-
-void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed) {
-    auto* const paged = dynamic_cast<osg::PagedLOD*>(tile.node.get());
-    if (paged) _paging.follow(*paged, frame(), database(), &installed, true);
-    const Scoped inMesh(_isInMesh, !paged);
-    const Scoped below(_parent, osg::ref_ptr<InstalledTile>(&installed));
-    traverseBelow(*tile.node);
+std::size_t installBelow(osg::Node& root, const CullOptions& options, const BinIndex* index, bool keepsDatabases) {
+    BinInstaller installer(options, index, keepsDatabases);
+    installer.installAt(root);
+    return installer.installed();
 }
 
 }  // namespace osgAnalyticBin

@@ -52,13 +52,11 @@ void reportMissing(osg::Node& node, const CullOptions& options) {
 }
 
 std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex* index) {
-    BinInstaller installer(options);
-    installer.setIndex(index);
-    installer.installAt(node);
-    OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
+    const std::size_t installed = installBelow(node, options, index, false);
+    OSG_INFO << "osgAnalyticBin: " << installed << " tiles with " << toText(options) << std::endl;
     const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
-    if (wantsBins && installer.installed() == 0) reportMissing(node, options);
-    return installer.installed();
+    if (wantsBins && installed == 0) reportMissing(node, options);
+    return installed;
 }
 
 // Tells it once: a program that adds tiles adds many.
@@ -90,10 +88,7 @@ void makeIndex(osg::Node& node, TileBoundsSource* index) {
 }  // namespace
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
-    BinInstaller installer(options);
-    installer.keepDatabases();
-    installer.installAt(node);
-    return installer.installed();
+    return installBelow(node, options, nullptr, true);
 }
 
 std::size_t installBins(osg::Node& node, const CullOptions& options) {
