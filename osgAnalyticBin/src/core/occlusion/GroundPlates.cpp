@@ -147,7 +147,7 @@ private:
         }
         const GeodeticBin bounds = boundsOf(c);
         raise(bounds);
-        // lines, and skirts that are folded up
+        // lines
         const glm::dvec3 &p = positionOf(c[0]), &q = positionOf(c[1]), &r = positionOf(c[2]);
         if (p == q || q == r || r == p) return;
         lower(bounds, bounds.empty() ? -kInfinity : bounds.altitude().lower);
@@ -175,13 +175,11 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude,
     }
 }
 
-GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin,
-                           double skirt)
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
     : GroundPlates(ellipsoid, extents.latitude(), extents.longitude()) {
     if (extents.empty() || !mayStandBeside(margin)) return;
     MeshCover::Ends ends;
     if (MeshCover::of(ellipsoid, mesh, margin, &ends).isFilled) Builder(*this, mesh, ends, margin);
-    if (!mayHang(skirt)) _most.fill(kUnknown);
 }
 
 // Whether a mesh that is drawn `margin` metres away from its place still covers what is within the rims.

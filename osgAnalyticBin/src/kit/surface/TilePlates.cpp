@@ -6,7 +6,6 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../PerThread.h"
-#include "Skirts.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"
@@ -27,33 +26,14 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// What a mesh is read for.
-enum class Reading {
-    Triangles,       // all of them, skirts included
-    WithoutSkirts,   // with skirts folded up
-    WithAnyDiagonal  // the graphics driver chooses the diagonals of quads
-};
-
-bool isReadable(const osg::Drawable& drawable, Reading reading) {
+bool isReadable(const osg::Drawable& drawable, bool withAnyDiagonal) {
     const osg::Geometry* const geometry = drawable.asGeometry();
     if (!geometry) return false;
     const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::none_of(sets.begin(), sets.end(), [reading](const osg::ref_ptr<osg::PrimitiveSet>& set) {
+    return std::none_of(sets.begin(), sets.end(), [withAnyDiagonal](const osg::ref_ptr<osg::PrimitiveSet>& set) {
         const bool isOfQuads = set->getMode() == GL_QUADS || set->getMode() == GL_QUAD_STRIP;
-        return set->getMode() == GL_POLYGON || (isOfQuads && reading != Reading::WithAnyDiagonal);
+        return set->getMode() == GL_POLYGON || (isOfQuads && !withAnyDiagonal);
     });
-}
-
-// Whether a triangle still has an area after skirts were folded up: then it does not belong to a skirt.
-bool hasFoldedSurface(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size() && !marks.empty(); i += 3) {
-        const auto [a, b, c] =
-            std::array<std::uint32_t, 3>{mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]};
-        const bool isFolded = ((marks[a] | marks[b] | marks[c]) & kSkirtVertex) != 0;
-        const glm::dvec3 p = mesh.vertex(a), q = mesh.vertex(b), r = mesh.vertex(c);
-        if (isFolded && p != q && q != r && r != p) return true;
-    }
-    return false;
 }
 
 // Half a unit in the last place, in three directions.
@@ -62,9 +42,9 @@ constexpr double kFloatRounding = 1.1e-7;
 // Puts the meshes of all parts of a tile together. An osgTerrain tile has to be the only part.
 class MeshUnion final : public SurfaceWalk {
 public:
-    MeshUnion(const TileMeshes& meshes, osg::Node& node, const core::Ellipsoid& globe, Reading reading,
-              core::EcefMesh& mesh)
-        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _globe(globe), _reading(reading), _mesh(mesh) {
+    // `withAnyDiagonal`: quads, too, whose diagonals the graphics driver chooses.
+    MeshUnion(const TileMeshes& meshes, osg::Node& node, bool withAnyDiagonal, core::EcefMesh& mesh)
+        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _withAnyDiagonal(withAnyDiagonal), _mesh(mesh) {
         node.accept(*this);
         if (_posts && !_mesh.triangles.empty()) giveUp();
     }
@@ -77,8 +57,6 @@ public:
         const double error = drawingErrorOf(_farthest);
         return globe.isPlane() ? error : std::max(error, osgAnalyticBin::drawingError(globe));
     }
-    // Metres that skirts hang down, which are not in the mesh.
-    [[nodiscard]] double skirt() const { return _skirt; }
     [[nodiscard]] const TerrainPosts* posts() const { return isKnown() && _posts ? &*_posts : nullptr; }
 
 private:
@@ -92,13 +70,8 @@ private:
     void visit(osg::Drawable& drawable) override {
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& part = *kept;
-        if (!isReadable(drawable, _reading) || !readMesh(drawable, localToEcef(), part)) return giveUp();
+        if (!isReadable(drawable, _withAnyDiagonal) || !readMesh(drawable, localToEcef(), part)) return giveUp();
         if (part.triangles.empty()) return;
-        if (_reading == Reading::WithoutSkirts) {
-            const MeshSkirts skirts = foldSkirts(part, _globe);
-            if (hasFoldedSurface(part, skirts.marks)) return giveUp();
-            _skirt = std::max(_skirt, skirts.depth);
-        }
         dropUnusedVertices(part);
         _farthest = std::max(_farthest, farthestVertex(part, localToEcef()));
         const auto first = static_cast<std::uint32_t>(_mesh.size());
@@ -109,12 +82,10 @@ private:
     }
 
     const TileMeshes& _meshes;
-    const core::Ellipsoid& _globe;
-    const Reading _reading;
+    const bool _withAnyDiagonal;
     core::EcefMesh& _mesh;
     std::optional<TerrainPosts> _posts;
     double _farthest = 0.0;  // of a vertex from the origin of its frame
-    double _skirt = 0.0;
 };
 
 double along(const core::Interval& interval, std::size_t i, std::size_t posts) {
@@ -153,7 +124,7 @@ core::MeshCover coverOf(const TileMeshes& meshes, osg::Node& node) {
     }
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
     core::EcefMesh mesh;
-    const MeshUnion parts(meshes, node, globe, Reading::WithAnyDiagonal, mesh);
+    const MeshUnion parts(meshes, node, true, mesh);
     return parts.isMesh() ? core::MeshCover::of(globe, mesh, parts.rounding()) : core::MeshCover();
 }
 
@@ -163,7 +134,7 @@ std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
     if (meshes.nodes.size() != 1 || !hasGround(meshes)) return nullptr;
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
     core::EcefMesh mesh;
-    const MeshUnion parts(meshes, *meshes.nodes.front(), globe, Reading::WithoutSkirts, mesh);
+    const MeshUnion parts(meshes, *meshes.nodes.front(), false, mesh);
     const double error = parts.drawingError(globe);
     std::unique_ptr<const core::GroundPlates> plates;
     if (const TerrainPosts* const posts = parts.posts()) {
@@ -172,7 +143,7 @@ std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
     } else if (parts.isMesh()) {
         const core::MeshBounds bounds(globe, mesh);
         if (bounds.bin().empty() || bounds.touchesAxis()) return nullptr;
-        plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error, parts.skirt());
+        plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error);
     }
     return plates && plates->isKnown() ? std::move(plates) : nullptr;
 }
@@ -207,7 +178,7 @@ bool areVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellips
 bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh) {
     if (meshes.nodes.size() != 1) return false;
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
-    const MeshUnion parts(meshes, *meshes.nodes.front(), globe, Reading::Triangles, mesh);
+    const MeshUnion parts(meshes, *meshes.nodes.front(), false, mesh);
     if (const TerrainPosts* const posts = parts.posts()) appendTriangles(*posts, globe, mesh);
     return parts.posts() || parts.isMesh();
 }

@@ -50,17 +50,15 @@ public:
     /// place (MeshCover); a cell is known where no end of the mesh reaches into it. `margin`: how many metres away from
     /// its place the mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than a tenth
     /// of a rim.
-    /// `skirt`: how many metres skirts that the mesh does not have hang from its border, within 3 degrees of straight
-    /// down. No tops are known if these are deeper than half of the mesh's width.
     /// Cost: some 0.3 microseconds for each triangle. Requires: indices within the vertices.
-    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0,
-                 double skirt = 0.0);
+    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
 
     /// Of a grid with triangles between its posts, the diagonal of each of its cells either way, front faces up.
-    /// `altitudes`: metres, of the posts, row by row from the south-west; `margin` and `skirt` as above. All cells are
-    /// known or none: where posts are too far apart, too steep, fewer than three a side, or at a pole. Guarantee: that
-    /// of a mesh with any choice of diagonals; tests: GroundPlates.*OfAGrid*. Cost: some 10 nanoseconds for each post.
-    /// Requires: an altitude for each post.
+    /// `altitudes`: metres, of the posts, row by row from the south-west; `margin` as above; `skirt`: how many metres
+    /// skirts hang from the border, within 3 degrees of straight down: no tops are known if these are deeper than half
+    /// of the grid's width. All cells are known or none: where posts are too far apart, fewer than three a side, or at
+    /// a pole. Guarantee: that of a mesh with any choice of diagonals; tests: GroundPlates.*OfAGrid*. Cost: some 10
+    /// nanoseconds for each post. Requires: an altitude for each post.
     GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const std::vector<double>& altitudes,
                  double margin = 0.0, double skirt = 0.0);
 
