@@ -132,14 +132,4 @@ void moveToHold(Random& random, const RealVector& point, double size, std::vecto
     }
 }
 
-MeetingPair::MeetingPair(Random& random)
-    : ellipsoid(randomEllipsoid(random)),
-      bin(randomBin(random)),
-      margin(randomMargin(random)),
-      point(randomPointWithin(random, ellipsoid, bin, margin)),
-      planes(randomView(random, ellipsoid, bin, point).planes()),
-      exact(ellipsoid, bin, margin) {
-    moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
-}
-
 }  // namespace osgAnalyticBin::test

@@ -47,16 +47,4 @@ void moveToHold(Random& random, const RealVector& point, double size, std::vecto
 [[nodiscard]] RealVector randomPointWithin(Random& random, const core::Ellipsoid& ellipsoid,
                                            const core::GeodeticBin& bin, double margin) noexcept;
 
-/// A bin and a frustum that holds a point of it, or within the margin of one, by as little as 1e-9 m.
-struct MeetingPair {
-    explicit MeetingPair(Random& random);
-
-    core::Ellipsoid ellipsoid;
-    core::GeodeticBin bin;
-    double margin;
-    RealVector point;
-    std::vector<core::Plane> planes;
-    core::ExactGeodeticBin exact;
-};
-
 }  // namespace osgAnalyticBin::test

@@ -44,20 +44,6 @@ GeodeticBin square(double southDeg, double westDeg, double sizeDeg, Interval alt
     return GeodeticBin::fromDegrees({southDeg, southDeg + sizeDeg}, {westDeg, westDeg + sizeDeg}, altitude);
 }
 
-TEST(Horizon, SeesEveryPointWhoseLineOfSightJustMisses) {
-    Random random(301);
-    int seen = 0;
-    for (int trial = 0; trial < 300000; ++trial) {
-        const LineOfSight line = randomLineOfSight(random);
-        if (!segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) continue;
-        ++seen;
-        const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
-        if (!prepared) continue;
-        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
-    }
-    EXPECT_GT(seen, 100000) << "nothing is tested";
-}
-
 // The share of the way from the eye to a point at which a line of sight enters the occluder.
 double trueShare(const Ellipsoid& ellipsoid, const HorizonEye& eye, const glm::dvec3& from, const glm::dvec3& to) {
     const double a = ellipsoid.equatorialRadius(), b = ellipsoid.polarRadius(), scale = eye.data().scale;
@@ -108,25 +94,6 @@ TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
         ASSERT_FALSE(prepared->shareBefore(line.ellipsoid, centre, radius + 1e-6) < 1.0) << "trial " << trial;
     }
     EXPECT_GT(seen, 50000);
-}
-
-TEST(Horizon, SeesEveryPointThatAParallelRayReaches) {
-    Random random(302);
-    int seen = 0;
-    int active = 0;
-    for (int trial = 0; trial < 200000; ++trial) {
-        const LineOfSight line = randomLineOfSight(random);
-        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
-        if (!halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) continue;
-        ++seen;
-        const glm::dvec3 nearPoint = line.eye - 4e7 * direction;
-        const auto prepared = HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, nearPoint);
-        if (!prepared) continue;
-        ++active;
-        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
-    }
-    EXPECT_GT(seen, 50000);
-    EXPECT_GT(active, 50000);
 }
 
 // The share of truly hidden tiles that are found; truth by dense sampling, which calls too many hidden, if anything.

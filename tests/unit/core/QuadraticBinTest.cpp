@@ -38,18 +38,6 @@ QuadraticBin quadratic(const Ellipsoid& ellipsoid, const GeodeticBin& bin, doubl
     return QuadraticBin(GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
 }
 
-TEST(QuadraticBin, DistanceRangeHoldsTheTrueRange) {
-    Random random(61);
-    for (int trial = 0; trial < 300000; ++trial) {
-        const PlaneCase c(random);
-        const Interval range = quadratic(c.oracle.ellipsoid(), c.oracle.bin()).distanceRange(c.plane);
-        const RealRange truth = c.oracle.distanceRange(c.plane);
-        const Real rounding = c.oracle.rounding(c.plane);
-        ASSERT_LE(range.lower, truth.lower + rounding) << nameOf(c.kind) << " trial " << trial;
-        ASSERT_GE(range.upper, truth.upper - rounding) << nameOf(c.kind) << " trial " << trial;
-    }
-}
-
 // Wide and narrow beside the axis: a remainder that loses the smallest cosines fails here first.
 TEST(QuadraticBin, DistanceRangeHoldsTheTrueRangeBesideTheAxis) {
     Random random(62);
