@@ -24,7 +24,6 @@ using core::Geodetic;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // toEcef: some ten roundings of quantities as large as the coordinates.
 constexpr double kMappingRounding = 16.0 * kEpsilon;
-constexpr double kRoundTripError = 1e-8;  // promised by Ellipsoid::toGeodetic
 // Far away the rounding of the angles themselves, an ulp of pi and one of pi/2, is more than that.
 constexpr double kRoundTripAngle = 3.0 * kEpsilon;
 
@@ -55,38 +54,6 @@ TEST(Ellipsoid, PolesHaveLongitudeZero) {
         EXPECT_EQ(pole.longitude, 0.0);
         EXPECT_NEAR(pole.altitude, 250.0, 1e-8);
     }
-}
-
-// The promise covers earth-like ellipsoids, 5000 km below the surface and up.
-TEST(Ellipsoid, ReturnsToTheSamePoint) {
-    Random random(11);
-    double worstNear = 0.0;
-    double worstFar = 0.0;
-    for (int trial = 0; trial < 200000; ++trial) {
-        const double radius = random.uniform(1.36e6, 7e6);
-        const Ellipsoid ellipsoid =
-            random.chance(0.5) ? wgs84()
-                               : Ellipsoid(6378137.0, 6378137.0 * std::sqrt(1.0 - random.uniform(-0.0099, 0.0099)));
-        const bool far = random.chance(0.5);
-        glm::dvec3 direction = random.direction();
-        if (random.chance(0.1))
-            direction = glm::normalize(glm::dvec3(direction.x * 1e-9, direction.y * 1e-9, direction.z));
-        if (random.chance(0.1)) direction = glm::normalize(glm::dvec3(direction.x, direction.y, direction.z * 1e-9));
-        if (random.chance(0.1)) direction = glm::normalize(glm::dvec3(-1.0, direction.y * 1e-9, direction.z));
-        const double distance = far ? random.logUniform(7e6, 1e8) : radius;
-        const glm::dvec3 point = direction * distance;
-        if (!far && glm::length(point) < ellipsoid.polarRadius() - 5e6) continue;
-        const Geodetic position = ellipsoid.toGeodetic(point);
-        ASSERT_LE(std::abs(position.latitude), kHalfPi);
-        ASSERT_LE(std::abs(position.longitude), kPi);
-        const double error = distanceBetween(point, geodeticToEcef(ellipsoid, position));
-        double& worst = far ? worstFar : worstNear;
-        worst = std::max(worst, error / (far ? distance : 1.0));
-    }
-    std::printf("round trip: %.2g m to 7000 km from the centre, %.2g times the distance to 1e5 km\n", worstNear,
-                worstFar);
-    EXPECT_LE(worstNear, kRoundTripError);
-    EXPECT_LE(worstFar, kRoundTripAngle);
 }
 
 // From disks to needles, at any depth: where normals cross, the nearest of several positions is taken.
@@ -135,6 +102,8 @@ TEST(Ellipsoid, ReturnsToTheSamePointOnDisksAndNeedles) {
         if (random.chance(0.1)) point[random.integer(0, 2)] = 0.0;
         point *= larger * (random.chance(0.5) ? random.uniform(0.0, 1.5) : random.logUniform(1e-12, 1e3));
         const Geodetic position = ellipsoid.toGeodetic(point);
+        ASSERT_LE(std::abs(position.latitude), kHalfPi);
+        ASSERT_LE(std::abs(position.longitude), kPi);
         const double error = distanceBetween(point, geodeticToEcef(ellipsoid, position));
         worst = std::max(worst, error / (largestCurvatureRadius(ellipsoid) + glm::length(point)));
         // the nearest point of the surface is as far away as the surface is deep there

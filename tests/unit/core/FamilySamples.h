@@ -31,8 +31,27 @@ struct Slot {
     bool hasHorizon;
 };
 
-/// Siblings, or bins of any kind beside each other, and planes most of which touch or nearly touch one of them: any
-/// number, now and then with what is no number. Masks have gaps, slots are empty or cleared.
+/// Planes most of which touch or nearly touch one of the bins: any number, now and then with what is no number.
+inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracles, core::PlaneSet& planes) {
+    constexpr std::array<double, 4> kNoNumbers{
+        std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
+    const int count = random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
+    const bool allInside = random.chance(0.3);
+    for (int i = 0; i < count; ++i) {
+        const BinOracle& near =
+            oracles[static_cast<std::size_t>(random.integer(0, static_cast<int>(oracles.size()) - 1))];
+        core::Plane plane = randomPlane(random, near, random.pick(kPlaneKinds));
+        if (allInside) plane.offset += random.uniform(0.0, 2.0) * sizeOf(near.ellipsoid(), near.bin());
+        if (random.chance(0.01)) {
+            double& number = random.chance(0.5) ? plane.offset : plane.normal[random.integer(0, 2)];
+            number = random.pick(kNoNumbers);
+        }
+        planes.push_back(plane);
+    }
+}
+
+/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, slots are empty or cleared.
 struct FamilyCase {
     explicit FamilyCase(Random& random)
         : ellipsoid(randomEllipsoid(random)),
@@ -48,7 +67,7 @@ struct FamilyCase {
                                                      SlotKind::Empty};
             addSlot(random, oracles.back().bin(), i, isMixed ? random.pick(kKinds) : common);
         }
-        addPlanes(random, oracles);
+        addRandomPlanes(random, oracles, planes);
         undecided = random.chance(0.5) ? planes.all() : static_cast<core::PlaneMask>(random.bits());
         candidates = random.chance(0.5) ? ~std::uint64_t{0} : random.bits();
         const double depth = randomDepth(random);
@@ -88,26 +107,6 @@ private:
         if (kind == SlotKind::Exact) family.set(i, slot.exact);
         if (kind == SlotKind::Quadratic) family.set(i, slot.quadratic);
         if (slot.hasHorizon) family.setHorizon(i, slot.horizon);
-    }
-
-    void addPlanes(Random& random, const std::vector<BinOracle>& oracles) {
-        constexpr std::array<double, 4> kNoNumbers{
-            std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-            -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
-        const int count =
-            random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
-        const bool allInside = random.chance(0.3);
-        for (int i = 0; i < count; ++i) {
-            const BinOracle& near =
-                oracles[static_cast<std::size_t>(random.integer(0, static_cast<int>(oracles.size()) - 1))];
-            core::Plane plane = randomPlane(random, near, random.pick(kPlaneKinds));
-            if (allInside) plane.offset += random.uniform(0.0, 2.0) * sizeOf(ellipsoid, near.bin());
-            if (random.chance(0.01)) {
-                double& number = random.chance(0.5) ? plane.offset : plane.normal[random.integer(0, 2)];
-                number = random.pick(kNoNumbers);
-            }
-            planes.push_back(plane);
-        }
     }
 };
 

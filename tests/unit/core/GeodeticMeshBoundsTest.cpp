@@ -44,22 +44,6 @@ TEST(GeodeticMeshBounds, OneVertexIsAPoint) {
     EXPECT_EQ(bin.latitude().width() + bin.longitude().width() + bin.altitude().width(), 0.0);
 }
 
-TEST(GeodeticMeshBounds, HoldsLooseTriangles) {
-    // Any three points of a bin, not only neighbouring posts; also across the equator.
-    Random random(91);
-    for (int trial = 0; trial < 20000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const double south = random.uniform(-kHalfPi, 1.4);
-        const GeodeticBin bin({south, std::min(south + random.uniform(0.0, 1.2), kHalfPi)},
-                              {2.0, 2.0 + random.uniform(0.0, 1.5)}, randomAltitude(random));
-        EcefMesh mesh;
-        for (int i = 0; i < 3; ++i) addVertex(mesh, ellipsoid.toEcef(randomPosition(random, bin)));
-        mesh.triangles = {0, 1, 2};
-        expectHolds(random, ellipsoid, mesh, thoroughBounds(ellipsoid, mesh, bin.longitude().middle(), 0.0),
-                    kMeshPromised);
-    }
-}
-
 TEST(GeodeticMeshBounds, HoldsMeshesAcrossTheDateLine) {
     Random random(92);
     for (int trial = 0; trial < 500; ++trial) {
@@ -156,32 +140,6 @@ TEST(GeodeticMeshBounds, ColumnsOnTheAntimeridianServeBothSides) {
         }
         expectHolds(random, earth, mesh, thoroughBounds(earth, mesh, 0.0, 0.0), kMeshPromised);
     }
-}
-
-TEST(GeodeticMeshBounds, IsTight) {
-    // A grid over a 5.6 degree tile: longitudes exact, latitudes and altitudes wider by second-order terms only.
-    Random random(96);
-    double worstNorth = 0.0;
-    double worstDown = 0.0;
-    for (int trial = 0; trial < 300; ++trial) {
-        const GeodeticBin bin = randomTile(random, 2, {-500.0, 9000.0});
-        const auto steps = static_cast<std::uint32_t>(random.integer(2, 16));
-        const EcefMesh mesh = gridMesh(random, wgs84(), bin, steps);
-        const GeodeticBin found = thoroughBounds(wgs84(), mesh, bin.longitude().middle(), 1e-3);
-        const double step = bin.latitude().width() / steps;
-        ASSERT_NEAR(found.longitude().lower, bin.longitude().lower, 1e-13);
-        ASSERT_NEAR(found.longitude().upper, bin.longitude().upper, 1e-13);
-        ASSERT_LE(found.altitude().upper, bin.altitude().upper + kMeshPromised);
-        const double poleward =
-            std::max(found.latitude().upper - bin.latitude().upper, bin.latitude().lower - found.latitude().lower);
-        worstNorth = std::max(worstNorth, poleward / (step * step));
-        const double sag = bin.altitude().lower - found.altitude().lower;
-        worstDown = std::max(worstDown, sag / (wgs84().equatorialRadius() * step * step));
-    }
-    std::printf("mesh bounds: poleward %.3f step^2 radians, down %.3f R step^2 (the sag itself is 0.25)\n", worstNorth,
-                worstDown);
-    EXPECT_LE(worstNorth, 0.25);
-    EXPECT_LE(worstDown, 0.35);
 }
 
 }  // namespace

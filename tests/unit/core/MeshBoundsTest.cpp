@@ -36,20 +36,6 @@ GeodeticBin randomExtents(Random& random) {
                        {low, random.chance(0.3) ? low : random.uniform(low, 9000.0)});
 }
 
-TEST(MeshBounds, HoldsLooseTriangles) {
-    Random random(191);
-    for (int trial = 0; trial < 20000; ++trial) {
-        const double south = random.uniform(-kHalfPi, 1.4);
-        const GeodeticBin bin({south, std::min(south + random.uniform(0.0, 0.2), kHalfPi)},
-                              {2.0, 2.0 + random.uniform(0.0, 0.5)}, {-90000.0, 90000.0});
-        EcefMesh mesh;
-        for (int i = 0; i < 3; ++i) addVertex(mesh, wgs84().toEcef(randomPosition(random, bin)));
-        mesh.triangles = {0, 1, 2};
-        const MeshBounds bounds(wgs84(), mesh);
-        if (bounds.isQuick()) expectHolds(random, wgs84(), mesh, bounds.bin(), kQuickPromised);
-    }
-}
-
 TEST(MeshBounds, IsHardlyLooserThanTheThoroughBounds) {
     Random random(192);
     for (int trial = 0; trial < 1000; ++trial) {

@@ -4,6 +4,8 @@
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
 // kernels bit for bit.
 
+#include "FamilySamples.h"
+
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -21,7 +23,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <support/RandomBins.h>
 #include <vector>
 
@@ -36,29 +37,14 @@ using core::QuadraticBin;
 using core::Side;
 using core::kernels::PlaneSides;
 
-constexpr std::array<double, 4> kNoNumbers{
-    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-    -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
-
-// A bin and some planes about it: any number, of any kind, now and then with what is no number.
+// A bin and some planes about it.
 struct PlaneSetCase {
     explicit PlaneSetCase(Random& random)
         : oracle(randomEllipsoid(random), randomBin(random)),
           exact(oracle.ellipsoid(), oracle.bin()),
           quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())),
           either(core::quadraticOrExact(oracle.ellipsoid(), oracle.bin())) {
-        const int count =
-            random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
-        const bool allInside = random.chance(0.3);
-        for (int i = 0; i < count; ++i) {
-            Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
-            if (allInside) plane.offset += random.uniform(0.0, 2.0) * sizeOf(oracle.ellipsoid(), oracle.bin());
-            if (random.chance(0.01)) {
-                double& number = random.chance(0.5) ? plane.offset : plane.normal[random.integer(0, 2)];
-                number = random.pick(kNoNumbers);
-            }
-            planes.push_back(plane);
-        }
+        addRandomPlanes(random, {oracle}, planes);
         undecided = random.chance(0.5) ? planes.all() : static_cast<PlaneMask>(random.bits());
     }
 

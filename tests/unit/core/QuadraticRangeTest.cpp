@@ -212,29 +212,6 @@ TEST(QuadraticRange, MatchesAllStationaryPointsInLongDouble) {
                 static_cast<double>(worst) / std::numeric_limits<double>::epsilon());
 }
 
-// Nearly singular Hessians with the extremum in the middle of a face or of the box: Cramer's rule lost up to half of
-// the digits of the extremum there.
-TEST(QuadraticRange, KeepsItsDigitsWhenNearlySingular) {
-    Random random(55);
-    double worst = 0.0;
-    for (int trial = 0; trial < 500000; ++trial) {
-        Quadratic q = randomQuadratic(random, random.chance(0.5) ? Shape::NearlySingular : Shape::NearlySingularFace);
-        const Vector x{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)};
-        const Matrix h = matrixOf(q);
-        for (std::size_t i = 0; i < 3; ++i) {
-            q.gradient[i] = -static_cast<double>(h[i][0] * x[0] + h[i][1] * x[1] + h[i][2] * x[2]);
-        }
-        const Interval range = exactRange(q);
-        const auto [lower, upper] = solvedRange(q);
-        const Real error = std::max(std::abs(range.lower - lower), std::abs(range.upper - upper));
-        worst = std::max(worst, static_cast<double>(error) / magnitudeOf(q));
-    }
-    const double epsilons = worst / std::numeric_limits<double>::epsilon();
-    std::printf("exact range, nearly singular: off by at most %.2f epsilon times the magnitude (promised 64)\n",
-                epsilons);
-    EXPECT_LE(worst, kRangePromised);
-}
-
 TEST(QuadraticRange, FindsExtremaOfEveryKind) {
     const auto range = [](double value, std::array<double, 3> gradient, std::array<double, 6> hessian) {
         return exactRange(Quadratic{value, gradient, hessian});

@@ -74,8 +74,8 @@ public:
     /// has several positions: the result is one nearest to the surface, on the equator's plane the northern one.
     /// Source: [E13]; doc/theory/derivation.md, section 1.
     /// Guarantee: toEcef(result) within 3 epsilon of the point's distance from the centre plus the largest radius of
-    /// curvature, max(a, a2/b, b2/a), for every finite point and b/a from 0.01 to 100; on earth-like ellipsoids
-    /// (|e2| < 0.01) within 1e-8 m up to 7000 km from the centre, within 3 epsilon of the distance beyond;
+    /// curvature, max(a, a2/b, b2/a), for every finite point and b/a from 0.01 to 100: on earth-like ellipsoids
+    /// (|e2| < 0.01) within 1e-8 m up to 7000 km from the centre;
     /// tests: Ellipsoid.ReturnsToTheSamePoint*, Ellipsoid.ReturnsToTheSamePosition*.
     /// Cost: three or four steps of five divisions near the surface, a hundred at most; two arctangents.
     [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
