@@ -90,6 +90,7 @@ bool altersDrawing(PartKind kind) {
         case PartKind::LeavesOut:
         case PartKind::PushesState:
         case PartKind::Masks:
+        case PartKind::Vanish:
         case PartKind::DrawableCull:
         case PartKind::DrawableDraw:
         case PartKind::VisitorLeavesOut:

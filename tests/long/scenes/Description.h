@@ -123,6 +123,7 @@ enum class PartKind {
     LeavesOut,  // cull callbacks
     PushesState,
     Masks,
+    Vanish,   // see Parts.cpp
     OneShot,  // an update callback that takes itself off
     BoundCallback,
     NoBoundCallback,

@@ -137,6 +137,17 @@ void addUserCallback(const Part& part, osg::Node& node) {
     hang(new Masker(~kMasked), isNested, node);
 }
 
+// Variants: masked; taken away; a plain group in its place; levels that are shown from nearby alone.
+void vanish(int variant, osg::Node& node) {
+    if (variant == 0) return node.setNodeMask(0);
+    auto* const levels = dynamic_cast<osg::LOD*>(&node);
+    for (unsigned int i = 0; variant == 3 && levels && i < levels->getNumRanges(); ++i) levels->setRange(i, 0.0f, 1.0f);
+    if (variant == 3) return;
+    const osg::ref_ptr<osg::Node> gone = &node;
+    for (osg::Group* const parent : node.getParents())
+        variant == 1 ? parent->removeChild(gone) : parent->replaceChild(gone, new osg::Group);
+}
+
 void setBoundCallback(const Part& part, osg::Node& node) {
     if (part.kind == PartKind::NoBoundCallback)
         node.setComputeBoundingSphereCallback(nullptr);
@@ -276,6 +287,8 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::Masks:
         case PartKind::OneShot:
             return addUserCallback(part, *node);
+        case PartKind::Vanish:
+            return vanish(part.variant, *node);
         case PartKind::BoundCallback:
         case PartKind::NoBoundCallback:
             return setBoundCallback(part, *node);

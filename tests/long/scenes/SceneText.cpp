@@ -23,17 +23,20 @@ using Words = std::vector<const char*>;
 
 // In the order of the enumerators.
 const Words& wordsOf(PartKind) {
-    static const Words words{"switch",         "sequence",      "lod",           "paged",          "proxy",
-                             "group",          "turned",        "instance",      "again",          "moving-tiles",
-                             "caster",         "group-tree",    "hole",          "reversed-faces", "narrow",
-                             "draws-nothing",  "adding",        "objects",       "equal-names",    "culling-off",
-                             "user-cull",      "user-update",   "drawable-bin",  "outline",        "fill",
-                             "state",          "leaves-out",    "pushes-state",  "masks",          "one-shot",
-                             "bound",          "no-bound",      "drawable-cull", "drawable-draw",  "drawable-update",
-                             "drawable-bound", "raise",         "tower",         "vehicle",        "sign",
-                             "unculled",       "traffic",       "camera",        "visitor-leaves", "pick",
-                             "toggle",         "set-options",   "install",       "uninstall",      "set-scale",
-                             "clone",          "save-and-load", "expire",        "move",           "shove"};
+    static const Words words{"switch",         "sequence",       "lod",           "paged",
+                             "proxy",          "group",          "turned",        "instance",
+                             "again",          "moving-tiles",   "caster",        "group-tree",
+                             "hole",           "reversed-faces", "narrow",        "draws-nothing",
+                             "adding",         "objects",        "equal-names",   "culling-off",
+                             "user-cull",      "user-update",    "drawable-bin",  "outline",
+                             "fill",           "state",          "leaves-out",    "pushes-state",
+                             "masks",          "vanish",         "one-shot",      "bound",
+                             "no-bound",       "drawable-cull",  "drawable-draw", "drawable-update",
+                             "drawable-bound", "raise",          "tower",         "vehicle",
+                             "sign",           "unculled",       "traffic",       "camera",
+                             "visitor-leaves", "pick",           "toggle",        "set-options",
+                             "install",        "uninstall",      "set-scale",     "clone",
+                             "save-and-load",  "expire",         "move",          "shove"};
     return words;
 }
 const Words& wordsOf(Theme) {

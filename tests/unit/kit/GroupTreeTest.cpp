@@ -17,7 +17,6 @@
 
 #include <atomic>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -137,23 +136,6 @@ TEST(GroupTree, DoubtsAGroupWithoutItsWatch) {
     ASSERT_EQ(installBins(*tree.root), 32u);
     removeBins(*tree.groups[1]);
     EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
-}
-
-// Where terrain is gone the horizon hides nothing.
-TEST(GroupTree, SeesThroughAHoleWhereGroupsWere) {
-    const std::pair<bool, bool> pairs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
-    for (const auto& [isHalf, isReplaced] : pairs) {
-        GroupTree tree;
-        ASSERT_EQ(installBins(*tree.root), 32u);
-        ASSERT_FALSE(tree.drawsAntipode());
-        osg::Group& seen = *tree.tiles[19]->getParent(0);
-        osg::Group& gone = isHalf ? *seen.getParent(0) : seen;
-        const osg::ref_ptr<osg::Node> kept(&gone);
-        isReplaced ? gone.getParent(0)->replaceChild(&gone, new osg::Group) : gone.getParent(0)->removeChild(&gone);
-        EXPECT_TRUE(tree.drawsAntipode()) << isHalf << isReplaced;
-        update(*tree.root);
-        EXPECT_TRUE(tree.drawsAntipode()) << isHalf << isReplaced;
-    }
 }
 
 class InstalledTiles : public ::testing::Test {

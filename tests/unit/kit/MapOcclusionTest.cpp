@@ -113,6 +113,17 @@ TEST(MapOcclusion, HidesWhatIsBehindARidge) {
     }
 }
 
+TEST(MapOcclusion, IsNotNeededWhereBoxesEndBelowTheView) {
+    for (const bool isTerrain : {false, true}) {
+        RidgeMap map(0.0, isTerrain);
+        const osg::Vec3d eye = RidgeMap::cornerOf(0) + osg::Vec3d(-kSize, 0.5 * kSize, 2000.0);
+        const CullView view = CullView::lookAt(eye, eye + osg::Vec3d(1e5, 0.0, 2000.0), {0, 0, 1}, 2.0);
+        installBins(*map.root, optionsOf("heights=-100..900,occlusion=off"));
+        EXPECT_FALSE(map.drawsFarTile(view));
+        EXPECT_GE(map.counts().outside, map.row.size()) << isTerrain;
+    }
+}
+
 TEST(MapOcclusion, NeedsAnEyeAboveTheMap) {
     RidgeMap map;
     installBins(*map.root, optionsOf("heights=-100..9000,occlusion=on"));

@@ -185,6 +185,10 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
         EXPECT_DOUBLE_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
     }
     EXPECT_EQ(cluster->getDeviation(), -0.5f);
+    // heights that are not declared: all terrain on earth, in feet
+    const core::Interval heights = test::installedOn(*tile)->getBin().bin().altitude();
+    EXPECT_GE(heights.upper, 8849.0 / 0.3048);
+    EXPECT_LE(heights.lower, -10935.0 / 0.3048);
     EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);
     EXPECT_EQ(tile->getCullCallback(), cluster.get());
     EXPECT_TRUE(tile->getCullingActive());
