@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The program on a flat map. PlanarDatabaseTest.cpp tests that it culls nothing in view there.
+// The program on a flat map. That it culls nothing in view there: tests/scenes/map.scene.
 
 #include "BenchProgram.h"
 
