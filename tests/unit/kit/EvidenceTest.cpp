@@ -113,37 +113,6 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     }
 }
 
-// States are inherited: those of a group above tiles, those of a tile by its finer ones, and those of a file by its
-// tiles.
-TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
-    struct Derived : osgUtil::CullVisitor {};
-    enum Way { Plain, ByDerived, ByItself };
-    enum Place { Group, Tile, File };
-    const std::pair<Place, bool> cases[] = {{Group, false}, {Group, true}, {Tile, false}, {Tile, true}, {File, false}};
-    for (const Way way : {Plain, ByDerived, ByItself}) {
-        for (const auto& [place, isLater] : cases) {
-            MeshGlobe globe;
-            if (way == ByDerived) globe.visitor = new Derived;
-            BinStatistics::of(*globe.visitor).setTileByTile(way == ByItself);
-            const osg::ref_ptr<osg::Group> group = new osg::Group, file = new osg::Group;
-            osg::PagedLOD& tile = *globe.tiles[15];
-            globe.root->replaceChild(&tile, group);
-            group->addChild(&tile);
-            tile.setRange(0, 1e9f, 1e10f);
-            tile.setRange(1, 0.0f, 1e9f);
-            file->addChild(makePaged(makeMeshTile(extentsDeg(-45.0, 0.0, 135.0, 180.0), 10.0), "no.osgb"));
-            putBelow(tile, file);
-            if (isLater) installBins(*globe.root);
-            EXPECT_EQ(globe.draws(*file, MeshGlobe::fromAbove()), !isLater);
-            osg::Node& node = place == Group ? *group : place == Tile ? static_cast<osg::Node&>(tile) : *file;
-            node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-            if (!isLater) installBins(*globe.root);
-            EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << way << place << isLater;
-            EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
-        }
-    }
-}
-
 struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
     osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
 };

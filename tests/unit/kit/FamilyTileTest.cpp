@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What is delivered of kept tiles. Oracle: OSG's own traversal of the same scene, by a visitor of a derived class.
+// Random scenes have it, too: tests/long/scenes.
 
 #include "ApplicationGlobe.h"
 #include "DatabaseFixture.h"
-#include "PagedFlight.h"
-#include "PlanarMap.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
@@ -19,9 +18,7 @@
 #include <osgUtil/CullVisitor>
 #include <osgUtil/UpdateVisitor>
 
-#include <functional>
 #include <support/Random.h>
-#include <support/TemporaryFolder.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -42,102 +39,6 @@ std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
     return leaves.size();
 }
 
-void forEach(osg::Node& scene, const std::function<void(osg::Node&)>& action) {
-    struct All : osg::NodeVisitor {
-        explicit All(const std::function<void(osg::Node&)>& visit)
-            : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), action(visit) {
-            setNodeMaskOverride(~0u);
-        }
-        void apply(osg::Node& node) override {
-            nodes.emplace_back(&node);
-            traverse(node);
-        }
-        const std::function<void(osg::Node&)>& action;
-        std::vector<osg::ref_ptr<osg::Node>> nodes;
-    } all(action);
-    scene.accept(all);
-    for (const auto& node : all.nodes) action(*node);
-}
-
-class MapEntry : public testing::TestWithParam<bool> {
-protected:
-    MapEntry() {
-        map.isTerrain = GetParam();
-        root = map.build(folder.path());
-        std::string error;
-        installBins(*root, *cullOptionsFromText("index=off", error));
-        PagedFlight flight(*root);
-        const osg::Vec3d middle = map.origin + osg::Vec3d(0.5, 0.5, 0.0) * map.size;
-        EXPECT_TRUE(
-            flight.load(CullView::lookAt(middle + osg::Vec3d(0.0, 0.0, 4000.0), middle, {0.0, 1.0, 0.0}, 150.0)));
-    }
-
-    CullView randomView() {
-        const auto place = [&] {
-            return map.origin + osg::Vec3d(random.uniform(0.2, 0.8), random.uniform(0.2, 0.8), 0.0) * map.size;
-        };
-        CullView view = CullView::lookAt(place() + osg::Vec3d(0.0, 0.0, random.logUniform(3000.0, 30000.0)), place(),
-                                         {0.0, 0.1, 1.0}, random.uniform(10.0, 100.0));
-        view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
-        return view;
-    }
-
-    std::size_t expectSame(int views) {
-        std::size_t leaves = 0;
-        for (int i = 0; i < views; ++i) {
-            CullView view = randomView();
-            for (const auto mode : {osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR,
-                                    osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
-                                    osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES}) {
-                view.computeNearFar = mode;
-                leaves += expectSameLeaves(*root, view);
-            }
-        }
-        return leaves;
-    }
-
-    TemporaryFolder folder;
-    PlanarMap map;
-    osg::ref_ptr<osg::Group> root;
-    Random random{20261125};
-};
-
-TEST_P(MapEntry, DeliversWhatOsgDelivers) {
-    EXPECT_GT(expectSame(100), 1000u);
-}
-
-TEST_P(MapEntry, DeliversStatesOfAllNodes) {
-    forEach(*root, [](osg::Node& node) {
-        node.getOrCreateStateSet()->setRenderBinDetails(static_cast<int>(node.className()[0]), "RenderBin");
-    });
-    EXPECT_GT(expectSame(30), 300u);
-}
-
-TEST_P(MapEntry, HeedsNodeMasks) {
-    forEach(*root, [this](osg::Node& node) {
-        if (!dynamic_cast<osg::CoordinateSystemNode*>(&node) && random.chance(0.1)) node.setNodeMask(0);
-    });
-    expectSame(30);
-}
-
-TEST_P(MapEntry, LeavesWhatTheApplicationChangesToOsg) {
-    struct LeaveOut : osg::NodeCallback {
-        void operator()(osg::Node*, osg::NodeVisitor*) override {}
-    };
-    forEach(*root, [this](osg::Node& node) {
-        if (random.chance(0.05)) node.setCullingActive(!node.getCullingActive());
-        auto* const transform = dynamic_cast<osg::MatrixTransform*>(&node);
-        if (transform && random.chance(0.1)) transform->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-        if (!node.asDrawable() && !node.getCullCallback() && random.chance(0.05)) node.setCullCallback(new LeaveOut);
-        if (node.asGeode() && random.chance(0.2)) node.asGeode()->addDrawable(new osg::Geometry);
-        if (transform && random.chance(0.1)) transform->preMult(osg::Matrix::rotate(0.3, 0.2, 1.0, 0.1));
-    });
-    expectSame(30);
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, MapEntry, testing::Bool(),
-                         [](const auto& kind) { return kind.param ? "Terrain" : "Meshes"; });
-
 // The same mesh in a frame that is turned, as those of osgTerrain are on a globe.
 osg::ref_ptr<osg::MatrixTransform> turned(const osg::ref_ptr<osg::MatrixTransform>& mesh, const osg::Matrixd& turn) {
     auto& geometry = dynamic_cast<osg::Geometry&>(*mesh->getChild(0)->asGroup()->getChild(0));
@@ -149,7 +50,6 @@ osg::ref_ptr<osg::MatrixTransform> turned(const osg::ref_ptr<osg::MatrixTransfor
 }
 
 TEST(FamilyTile, DeliversWhatOsgDeliversOnAGlobe) {
-    const TemporaryFolder folder;
     Random random(20261126);
     osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
     globe->setEllipsoidModel(new osg::EllipsoidModel);

@@ -66,24 +66,6 @@ struct WideRegion : Region {
     }
 };
 
-TEST(RegionalHorizon, IsUsedWhereItIsWithinTheRegion) {
-    WideRegion region;
-    EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
-    installBins(*region.root);
-    for (const bool isTileByTile : {false, true}) {
-        BinStatistics::of(*region.visitor).setTileByTile(isTileByTile);
-        EXPECT_FALSE(region.drawsFarTile(30.0, 20.0));
-        EXPECT_FALSE(region.drawsFarTile(16.5, 6.5));
-        EXPECT_FALSE(region.drawsFarTile(30.0, 20.0, 160000.0));
-        // past a border
-        EXPECT_TRUE(region.drawsFarTile(30.0, 2.0));
-        EXPECT_TRUE(region.drawsFarTile(11.0, 20.0));
-        EXPECT_TRUE(region.drawsFarTile(30.0, 39.8));
-        // great circles bulge to the north
-        EXPECT_TRUE(region.drawsFarTile(49.5, 20.0));
-    }
-}
-
 TEST(RegionalHorizon, IsNotUsedByAnEyeBesideTheRegion) {
     WideRegion region;
     installBins(*region.root);
@@ -91,15 +73,6 @@ TEST(RegionalHorizon, IsNotUsedByAnEyeBesideTheRegion) {
     for (const auto& [latitude, longitude] : {std::pair(30.0, -3.0), {5.0, 20.0}, {51.0, 20.0}, {30.0, 41.0}})
         EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
     EXPECT_EQ(notes.count("not over the regional database"), 1u);
-}
-
-TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
-    WideRegion region;
-    region.root->removeChild(&region.tile(0, 0));
-    const CapturedNotes notes(osg::NOTICE);
-    installBins(*region.root);
-    EXPECT_EQ(notes.count("The horizon is not used"), 1u);
-    EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
 }
 
 TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {
@@ -170,15 +143,6 @@ TEST(ForeignHorizon, AnotherGlobeInsideDoesNotHideThatTilesLeaveAGap) {
         globe.root->addChild(inside);
         installBins(*globe.root);
         EXPECT_EQ(globe.drawsAntipode(), hasGap);
-    }
-}
-
-TEST(ForeignHorizon, IsNotUsedWhereAllSkirtsCountOrWhereItIsOff) {
-    for (const char* const options : {"skirts=all", "horizon=off"}) {
-        MeshGlobe globe;
-        std::string error;
-        installBins(*globe.root, *cullOptionsFromText(options, error));
-        EXPECT_TRUE(globe.drawsAntipode()) << options;
     }
 }
 

@@ -59,7 +59,7 @@ public:
     /// that does not hold for this traversal, by a selection that is made now.
     /// Guarantee: the visitor comes to all that is kept as it would through OSG's nodes, in the same order, with the
     /// same states, node paths and culling masks, and with time stamps of the levels on the way; tests: TileFamily.*,
-    /// FamilyTile.*, MapEntry.*, Selection.*. Of what callbacks of an application change on nodes meanwhile, masks
+    /// FamilyTile.*, Scenes.*, Selection.*. Of what callbacks of an application change on nodes meanwhile, masks
     /// count at once; all else may count from the next traversal on. Requires: culls().
     void draw(osg::Group& group, const DatabaseView& view) const;
 
