@@ -239,11 +239,17 @@ TEST(HorizonBuffer, FindsBallsBesideThePicture) {
 
 // Vectors of any width and single numbers give the same outlines and the same pictures, bit for bit.
 TEST(HorizonBuffer, IsTheSameForAllInstructionSets) {
-    const auto picture = [](std::vector<double>& numbers) {
-        Random random(1720);
-        for (int i = 0; i < 20; ++i) {
-            const OcclusionScene scene(random, true, i % 4 == 3);
-            HorizonBuffer buffer = bufferOf(scene, randomEyes(random, scene));
+    Random random(1720);
+    std::vector<OcclusionScene> scenes;
+    std::vector<glm::dvec3> eyes;
+    for (int i = 0; i < 20; ++i) {
+        scenes.emplace_back(random, true, i % 4 == 3);
+        eyes.push_back(randomEyes(random, scenes.back()));
+    }
+    const auto picture = [&](std::vector<double>& numbers) {
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+            const OcclusionScene& scene = scenes[i];
+            HorizonBuffer buffer = bufferOf(scene, eyes[i]);
             for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, std::size_t{2} << i % 3);
             for (const auto& [part, outline] : frontToBack(scene, buffer)) {
                 numbers.push_back(buffer.hides(outline));
