@@ -110,24 +110,16 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     return out.str();
 }
 
-namespace {
-
-bool haveCommonLongitude(const RectDeg& a, const RectDeg& b) noexcept {
-    const double turns = std::floor((a.west - b.west) / 360.0);
-    for (const double turn : {turns, turns + 1.0}) {
-        if (b.west + 360.0 * turn <= a.east && b.east + 360.0 * turn >= a.west) return true;
-    }
-    return false;
-}
-
-}  // namespace
-
-bool ChangedArea::touches(const RectDeg& rect) const noexcept {
-    return std::any_of(_rects.begin(), _rects.end(), [&](const RectDeg& changed) {
+bool touches(const ChangedArea& area, const RectDeg& rect) noexcept {
+    const auto haveCommonLongitude = [&](const RectDeg& changed) {
+        const double turns = std::floor((changed.west - rect.west) / 360.0);
+        return rect.east + 360.0 * turns >= changed.west || rect.west + 360.0 * (turns + 1.0) <= changed.east;
+    };
+    return std::any_of(area.begin(), area.end(), [&](const RectDeg& changed) {
         if (changed.south > rect.north || changed.north < rect.south) return false;
         const bool isAtPole =
             (changed.north >= 90.0 && rect.north >= 90.0) || (changed.south <= -90.0 && rect.south <= -90.0);
-        return isAtPole || haveCommonLongitude(changed, rect);
+        return isAtPole || haveCommonLongitude(changed);
     });
 }
 
@@ -202,7 +194,7 @@ void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
         double reach = 0.0;
         for (const Raster& other : kept)
             if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
-        area.add(raster.area.grownBy(reach));
+        area.push_back(raster.area.grownBy(reach));
     }
 }
 

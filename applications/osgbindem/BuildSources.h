@@ -13,20 +13,12 @@
 
 namespace osgbindem {
 
-/// Where heights, how fine they are, or colours may have changed since a database was built.
-class ChangedArea final {
-public:
-    /// A rectangle of which posts may have changed, with the cells between them and their neighbours.
-    void add(const RectDeg& rect) { _rects.push_back(rect); }
+/// Where heights, how fine they are, or colours may have changed since a database was built: rectangles of posts, with
+/// the cells between them and their neighbours.
+using ChangedArea = std::vector<RectDeg>;
 
-    [[nodiscard]] bool empty() const noexcept { return _rects.empty(); }
-
-    /// Whether the rectangles have a point in common; longitudes count modulo 360, a pole is one point.
-    [[nodiscard]] bool touches(const RectDeg& rect) const noexcept;
-
-private:
-    std::vector<RectDeg> _rects;
-};
+/// Whether they have a point in common with the rectangle; longitudes count modulo 360, a pole is one point.
+[[nodiscard]] bool touches(const ChangedArea& area, const RectDeg& rect) noexcept;
 
 /// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their
 /// sizes and times. Two runs with the same text build the same files.

@@ -27,10 +27,9 @@ using osgAnalyticBin::support::throwIfStopRequested;
 namespace {
 
 /// Says what an earlier run has left, and makes the state one of this database.
-void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder,
-                 const BuildState& state) {
-    const bool isSame = state.isOf(sources);
-    const std::size_t done = state.count();
+void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder) {
+    const bool isSame = folder.isStateOf(sources);
+    const std::size_t done = folder.doneCount();
     if (isSame && !settings.restart) {
         if (done > 0 && !settings.quiet) {
             std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
@@ -42,20 +41,20 @@ void beginOrGoOn(const Settings& settings, const std::string& sources, std::size
                   << (isSame ? "to be removed" : "built from other settings or rasters") << std::endl;
     }
     folder.clear();
-    state.begin(sources);
+    folder.beginState(sources);
 }
 
 /// For the user, after a message; empty when nothing is kept.
-std::string whatIsKept(const DatabaseFolder& folder, const BuildState& state, std::size_t parts) {
-    const std::size_t done = state.count();
+std::string whatIsKept(const DatabaseFolder& folder, std::size_t parts) {
+    const std::size_t done = folder.doneCount();
     if (done == 0) return {};
-    return std::to_string(done) + " of " + std::to_string(parts) + " parts are kept in \"" + folder.partial() +
+    return "; " + std::to_string(done) + " of " + std::to_string(parts) + " parts are kept in \"" + folder.partial() +
            "\"; the same command goes on with them";
 }
 
-std::string interruption(const DatabaseFolder& folder, const BuildState& state, std::size_t parts) {
-    const std::string kept = whatIsKept(folder, state, parts);
-    return "interrupted; " + (kept.empty() ? "nothing was left behind" : kept);
+std::string interruption(const DatabaseFolder& folder, std::size_t parts) {
+    const std::string kept = whatIsKept(folder, parts);
+    return "interrupted" + (kept.empty() ? "; nothing was left behind" : kept);
 }
 
 /// The three times at which all ranks wait for each other: when the first one has prepared the folder, when all parts
@@ -120,13 +119,13 @@ std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
 }
 
 /// Does this rank's parts, and waits until all ranks have done theirs.
-void doParts(const Site& site, const std::vector<Task>& plan, const DatabaseFolder& folder, const Ranks& ranks,
-             Meetings& meetings) {
+void doParts(const Site& site, const std::vector<Task>& plan, const Ranks& ranks, Meetings& meetings) {
     try {
         Glance glance;
         if (ranks.count() > 1) glance = [&](bool isStopped) { meetings.glance(isStopped); };
         doTasks(site, partsOf(ranks, plan), glance);
-        if (!ranks.isFirst()) osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back
+        if (!ranks.isFirst())
+            osgAnalyticBin::support::flushToDisk(site.folder.partial());  // what this machine holds back
         meetings.hold();
     } catch (...) {
         if (ranks.isFirst()) {
@@ -146,38 +145,35 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     DatabaseFolder folder(settings.output);
     folder.lock();
     if (!settings.overwrite) folder.requireNone();
-    const BuildState state(folder.stateFolder());
     const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
     const std::string sources = describeSources(settings, layout);
-    beginOrGoOn(settings, sources, plan.size(), folder, state);
+    beginOrGoOn(settings, sources, plan.size(), folder);
     meetings.hold();
     // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
     meetings.setInterrupted([&] {
-        std::cerr << "osgbindem: " + interruption(folder, state, plan.size()) + "\n" << std::flush;
+        std::cerr << "osgbindem: " + interruption(folder, plan.size()) + "\n" << std::flush;
         leaveAfterSignal();
     });
     try {
-        const TileFiles files = folder.files(layout);
         Progress progress(!settings.quiet, weightOf(partsOf(ranks, plan)));
-        const Site site{settings, layout, files, state, progress};
-        doParts(site, plan, folder, ranks, meetings);
-        StartTiles starts(settings, layout);
-        buildStarts(site, plan, starts);
-        const std::string root = starts.rootBytes();
+        const Site site{settings, layout, folder, progress};
+        doParts(site, plan, ranks, meetings);
+        const std::vector<BuiltTile> starts = buildStarts(site, plan);
+        const std::string root = rootFileBytes(starts, settings, layout);
         folder.complete(root, sources);
         progress.finish();
         if (settings.quiet) return;
-        Tally tally = starts.tally();
+        Tally tally;
+        for (const BuiltTile& tile : starts) tally.add(tile.survey.tally);
         ++tally.files;
         tally.bytes += static_cast<double>(root.size());
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
         std::cout << tally.text(settings.output, layout.startLevel(), time.count()) << std::endl;
         if (!tally.warning().empty()) std::cerr << tally.warning() << std::endl;
     } catch (const Interrupted&) {
-        throw Interrupted(interruption(folder, state, plan.size()));
+        throw Interrupted(interruption(folder, plan.size()));
     } catch (const Failure& failure) {
-        const std::string kept = whatIsKept(folder, state, plan.size());
-        throw Failure(failure.what() + (kept.empty() ? kept : "; " + kept));
+        throw Failure(failure.what() + whatIsKept(folder, plan.size()));
     }
 }
 
@@ -191,10 +187,8 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
         const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
         meetings.hold();
         const DatabaseFolder folder(settings.output);
-        const TileFiles files = folder.files(layout);
-        const BuildState state(folder.stateFolder());
         Progress progress(false, 1.0);
-        doParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings);
+        doParts({settings, layout, folder, progress}, plan, ranks, meetings);
     } catch (const Interrupted&) {
         // the first rank knows why
     } catch (const std::bad_alloc&) {

@@ -28,79 +28,22 @@ using osgAnalyticBin::support::writeFile;
 
 namespace {
 
-/// One description of the bytes for both directions.
+/// One description of the bytes for both directions, the grid aside.
 template <class Stream, class Record>
-void passRecord(Stream& s, Record& record) {
-    s.number(record.files.files);
-    s.number(record.files.bytes);
-    s.number(record.files.checksum);
-    s.number(record.tile.range.lower);
-    s.number(record.tile.range.upper);
-    Tally::pass(s, record.tile.tally);
-    s.bin(record.tile.below);
-    s.numbers(record.tile.heights.values());
-    for (auto& edge : record.tile.skirt) {
-        s.numbers(edge.depth);
-        s.numbers(edge.lean);
+void passRecord(Stream& s, Record& tile) {
+    auto& tally = tile.tally;
+    for (auto* number : {&tile.range.lower, &tile.range.upper, &tally.tiles, &tally.deepest, &tally.files, &tally.bytes,
+                         &tally.posts, &tally.filled, &tally.missing}) {
+        s.number(*number);
     }
-}
-
-std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile, const TileLayout& layout) {
-    TaskRecord record{{HeightGrid(tile, layout), {}, {}, {}, {}}, {}};
-    const std::size_t heights = record.tile.heights.values().size();
-    try {
-        RecordReader in(bytes);
-        passRecord(in, record);
-    } catch (const std::out_of_range&) {
-        return std::nullopt;
+    for (auto* extreme : {&tally.lowest, &tally.highest}) {
+        s.number(extreme->metres);
+        s.number(extreme->position.latitudeDeg);
+        s.number(extreme->position.longitudeDeg);
     }
-    const auto posts = static_cast<std::size_t>(layout.posts());
-    bool isWhole = record.tile.heights.values().size() == heights;
-    for (const EdgeSkirt& edge : record.tile.skirt)
-        isWhole = isWhole && edge.depth.size() == posts && edge.lean.size() == posts;
-    if (!isWhole) return std::nullopt;
-    return record;
+    s.bin(tile.below);
+    s.number(tile.checksum);
 }
-
-}  // namespace
-
-std::string BuildState::fileOf(const TileId& tile) const {
-    return _folder + "/" + startName(tile) + "/" + tileName(tile) + ".task";
-}
-
-bool BuildState::isOf(const std::string& sources) const {
-    return support::contentOf(sourcesFile()) == sources;
-}
-
-void BuildState::begin(const std::string& sources) const {
-    support::makeFolder(_folder);
-    support::writeFile(sourcesFile(), sources);
-}
-
-std::size_t BuildState::count() const {
-    std::size_t count = 0;
-    std::error_code error;
-    for (fs::recursive_directory_iterator entry(_folder, error), end; !error && entry != end; entry.increment(error)) {
-        if (entry->path().extension() == ".task") ++count;
-    }
-    return count;
-}
-
-void BuildState::keep(const TaskRecord& record) const {
-    RecordWriter out;
-    passRecord(out, record);
-    const std::string file = fileOf(record.tile.heights.tile());
-    support::makeFolder(fs::path(file).parent_path().string());
-    support::writeFile(file, support::withChecksum(out.bytes));
-}
-
-std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout& layout) const {
-    const std::string bytes = support::contentOf(fileOf(tile));
-    const auto whole = support::wholeBytes(bytes);
-    return whole ? recordFrom(*whole, tile, layout) : std::nullopt;
-}
-
-namespace {
 
 void moveTo(const std::string& from, const std::string& to) {
     std::error_code error;
@@ -150,7 +93,7 @@ DatabaseFolder::~DatabaseFolder() {
     if (!_lock) return;
     std::error_code ignored;
     if (!fs::exists(mergeFile(), ignored)) {
-        if (BuildState(stateFolder()).count() == 0) fs::remove_all(_partial, ignored);
+        if (doneCount() == 0) fs::remove_all(_partial, ignored);
         fs::remove(_newRoot, ignored);
         fs::remove(_newSources, ignored);
     }
@@ -193,14 +136,66 @@ void DatabaseFolder::clear() {
     for (const std::string& left : {_partial, _old, _oldState}) remove(left);
 }
 
+std::string DatabaseFolder::recordOf(const TileId& tile) const {
+    return stateFolder() + "/" + startName(tile) + "/" + tileName(tile) + ".task";
+}
+
+bool DatabaseFolder::isStateOf(const std::string& sources) const {
+    return support::contentOf(stateSources()) == sources;
+}
+
+void DatabaseFolder::beginState(const std::string& sources) const {
+    support::makeFolder(stateFolder());
+    writeFile(stateSources(), sources);
+}
+
+std::size_t DatabaseFolder::doneCount() const {
+    std::size_t count = 0;
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(stateFolder(), error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().extension() == ".task") ++count;
+    }
+    return count;
+}
+
+void DatabaseFolder::keep(const SurveyedTile& tile) const {
+    RecordWriter out;
+    out.text(packed(tile.grid));
+    passRecord(out, tile);
+    const std::string file = recordOf(tile.id);
+    support::makeFolder(fs::path(file).parent_path().string());
+    writeFile(file, support::withChecksum(out.bytes));
+}
+
+std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileLayout& layout) const {
+    const std::string bytes = support::contentOf(recordOf(tile));
+    const auto whole = support::wholeBytes(bytes);
+    if (!whole) return std::nullopt;
+    SurveyedTile found;
+    std::string grid;
+    try {
+        RecordReader in(*whole);
+        in.text(grid);
+        passRecord(in, found);
+    } catch (const std::out_of_range&) {
+        return std::nullopt;
+    }
+    const auto known = osgAnalyticBin::unpacked(grid);
+    if (!known || known->cells != layout.cells()) return std::nullopt;
+    found.id = tile;
+    found.grid = *known;
+    return found;
+}
+
 std::string DatabaseFolder::standingSources() const {
-    return osgAnalyticBin::support::contentOf(_sources);
+    return support::contentOf(_sources);
 }
 
 void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
     writeFile(_newRoot, rootBytes);
     writeFile(_newSources, sources);
-    osgAnalyticBin::support::flushToDisk(_partial);
+    support::flushToDisk(_partial);
     remove(_old);
     remove(_oldState);
     std::error_code error;
@@ -224,7 +219,7 @@ void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sour
     fs::create_directories(stateFolder(), error);
     writeFile(_newRoot, rootBytes);
     writeFile(_newSources, sources);
-    osgAnalyticBin::support::flushToDisk(_partial);
+    support::flushToDisk(_partial);
     writeFile(mergeFile(), names);
     carryMergeThrough();
 }
@@ -232,7 +227,7 @@ void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sour
 void DatabaseFolder::carryMergeThrough() {
     for (const fs::path& file : finestFirst(_partial, stateFolder())) {
         const fs::path target = _tiles / fs::relative(file, _partial);
-        osgAnalyticBin::support::makeFolder(target.parent_path().string());
+        support::makeFolder(target.parent_path().string());
         moveTo(file.string(), target.string());
     }
     for (const std::string& file : {_rootFile, _sources}) {

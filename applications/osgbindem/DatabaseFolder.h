@@ -4,7 +4,7 @@
 #pragma once
 
 #include "DiskFile.h"
-#include "SkirtMeasure.h"
+#include "SurveyedTile.h"
 #include "TileFiles.h"
 #include "TileLayout.h"
 
@@ -15,46 +15,12 @@
 
 namespace osgbindem {
 
-/// A finished task of the work plan, as its file holds it.
-struct TaskRecord {
-    SurveyedTile tile;
-    /// Of the files below the tile.
-    FileSum files;
-};
-
-/// What has been done of a database, in files below one folder: what it is built from, and a record of each finished
-/// task, written after the task's tiles. A later run goes on from it; programs on several machines share it.
-class BuildState final {
-public:
-    explicit BuildState(std::string folder) : _folder(std::move(folder)) {}
-
-    /// Whether the state belongs to a database that is built from just this.
-    [[nodiscard]] bool isOf(const std::string& sources) const;
-
-    /// Requires: there is no state. Throws Failure.
-    void begin(const std::string& sources) const;
-
-    /// How many records there are, whole ones or not.
-    [[nodiscard]] std::size_t count() const;
-
-    /// Throws Failure.
-    void keep(const TaskRecord& record) const;
-
-    /// Returns: nullopt when there is none that is whole. May be called by several threads, as keep() may.
-    [[nodiscard]] std::optional<TaskRecord> find(const TileId& tile, const TileLayout& layout) const;
-
-private:
-    [[nodiscard]] std::string sourcesFile() const { return _folder + "/sources.txt"; }
-    [[nodiscard]] std::string fileOf(const TileId& tile) const;
-
-    std::string _folder;
-};
-
 /// Where the files of a database stand: "earth.osgb" is the root file, its tiles are below "earth_tiles". All tiles are
 /// written below "earth_tiles.partial", which takes the place of "earth_tiles" when everything is there; the root file
 /// comes last. So a root file always belongs to a complete database, and an older database of the same name stays
-/// whole until then. "earth_tiles.partial/state" says which of the tiles there are done, "earth.osgb.sources" what the
-/// complete ones are built from.
+/// whole until then. "earth_tiles.partial/state" says what these tiles are built from and holds a record of each task
+/// of the work plan, written after the task's tiles: a later run goes on from it, and programs on several machines
+/// share it. "earth.osgb.sources" says what the complete tiles are built from.
 ///
 /// An update moves its files one by one into "earth_tiles", so that readers always find all files that a file names:
 /// each is complete, and those with finer tiles come first. From the first on, it is carried through by whatever run
@@ -78,7 +44,6 @@ public:
     void clear();
 
     [[nodiscard]] const std::string& partial() const { return _partial; }
-    [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
     [[nodiscard]] TileFiles files(const TileLayout& layout) const {
         return {_partial, _tilesName, layout.startLevel()};
     }
@@ -90,6 +55,17 @@ public:
     }
     /// What the complete database is built from; empty when there is none or nobody knows.
     [[nodiscard]] std::string standingSources() const;
+
+    /// Whether the state belongs to a database that is built from just this.
+    [[nodiscard]] bool isStateOf(const std::string& sources) const;
+    /// Requires: there is no state. Throws Failure.
+    void beginState(const std::string& sources) const;
+    /// How many tasks have records, whole ones or not.
+    [[nodiscard]] std::size_t doneCount() const;
+    /// Writes the record of a finished task. May be called by several threads, as find() may. Throws Failure.
+    void keep(const SurveyedTile& tile) const;
+    /// Returns: nullopt when there is no record that is whole.
+    [[nodiscard]] std::optional<SurveyedTile> find(const TileId& tile, const TileLayout& layout) const;
 
     /// Swaps the new database in, without its state. Throws Failure.
     void complete(const std::string& rootBytes, const std::string& sources);
@@ -103,6 +79,9 @@ private:
 
     void requireOwnFolder(const std::string& folder, bool mayHaveState) const;
     void remove(const std::string& folder) const;
+    [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
+    [[nodiscard]] std::string stateSources() const { return stateFolder() + "/sources.txt"; }
+    [[nodiscard]] std::string recordOf(const TileId& tile) const;
     [[nodiscard]] std::string mergeFile() const { return stateFolder() + "/merge"; }
     void carryMergeThrough();
 

@@ -84,10 +84,10 @@ public:
         int coarsest =
             std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
         for (const Edge edge : kEdges) coarsest = std::min(coarsest, _builder.depths().coarsestAcross(tile, edge));
-        if (_change.area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)))) return true;
+        if (touches(_change.area, tile.rect().grownBy(_layout.spacingDeg(coarsest)))) return true;
         return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
             const auto neighbour = tile.neighbour(edge);
-            return neighbour && (_change.area.touches(neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour));
+            return neighbour && (touches(_change.area, neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour));
         });
     }
 
@@ -109,7 +109,7 @@ private:
         for (int level = _layout.startLevel(); level < neighbour.level; ++level) {
             const TileId above = neighbour.ancestor(level);
             const bool hasChildren = _builder.depths().hasChildren(above);
-            if (_change.area.touches(above.rect()) && hasChildren != _change.files.hasChildren(above)) return true;
+            if (touches(_change.area, above.rect()) && hasChildren != _change.files.hasChildren(above)) return true;
             if (!hasChildren) return false;
         }
         return false;
@@ -174,30 +174,29 @@ void updateDatabase(const Settings& given) {
         return;
     }
     folder.clear();
-    const TileFiles files = folder.files(layout);
     std::vector<Task> tasks;
     {
+        const TileFiles files = folder.files(layout);
         TileBuilder builder(settings, layout, files);
         const Updater updater(builder, change);
         const std::vector<Task> plan = planTasks(builder.mosaic(), layout);
         std::copy_if(plan.begin(), plan.end(), std::back_inserter(tasks),
                      [&](const Task& task) { return updater.hasChanged(task.tile); });
     }
-    const BuildState state(folder.stateFolder());
     Progress progress(!settings.quiet, weightOf(tasks));
-    const Site site{settings, layout, files, state, progress, [&](TileBuilder& builder) {
+    const Site site{settings, layout, folder, progress, [&](TileBuilder& builder) {
                         const auto updater = std::make_shared<Updater>(builder, change);
                         return [updater](const TileId& tile) { return updater->find(tile); };
                     }};
-    StartTiles starts(settings, layout);
+    std::string root;
     try {
         doTasks(site, tasks, nullptr);
-        buildStarts(site, tasks, starts);
+        root = rootFileBytes(buildStarts(site, tasks), settings, layout);
     } catch (...) {
         folder.clear();
         throw;
     }
-    folder.merge(starts.rootBytes(), sources, {change.removed.begin(), change.removed.end()});
+    folder.merge(root, sources, {change.removed.begin(), change.removed.end()});
     progress.finish();
 }
 

@@ -3,8 +3,6 @@
 
 #include "SkirtMeasure.h"
 
-#include "TerrainGrid.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -113,14 +111,21 @@ glm::dvec3 SkirtMeasure::ecef(const PostId& post) {
     return _layout.ellipsoid().toEcef(_layout.geodetic(post, _mosaic.height(_layout.position(post))));
 }
 
-Skirt SkirtMeasure::measure(const HeightGrid& heights) {
-    Skirt skirt;
-    for (const Edge edge : kEdges) skirt[static_cast<std::size_t>(edge)] = measureEdge(heights, edge);
-    return skirt;
+void SkirtMeasure::measure(SurveyedTile& tile) {
+    const auto stepsUp = [](const std::vector<double>& metres) {
+        std::vector<std::int32_t> steps;
+        for (const double value : metres)
+            steps.push_back(static_cast<std::int32_t>(std::ceil(value / osgAnalyticBin::TerrainGrid::kStep)));
+        return steps;
+    };
+    for (const Edge edge : kEdges) {
+        const EdgeSkirt skirt = measureEdge(tile, edge);
+        tile.grid.skirts[static_cast<std::size_t>(edge)] = {stepsUp(skirt.depth), stepsUp(skirt.lean)};
+    }
 }
 
-EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
-    const TileId& tile = heights.tile();
+SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, Edge edge) {
+    const TileId& tile = surveyed.id;
     const std::size_t count = static_cast<std::size_t>(_layout.posts());
     EdgeSkirt skirt{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
     if (!tile.neighbour(edge)) return skirt;  // a pole: the edge is one point
@@ -130,7 +135,7 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
         const int column = own.isParallel() ? i : (edge == Edge::East ? _layout.cells() : 0);
         const int row = own.isParallel() ? (edge == Edge::North ? _layout.cells() : 0) : i;
         const PostId post = own.post(tile.level, own.along() + i, own.across());
-        own.heights.push_back(heights.at(column, row));
+        own.heights.push_back(surveyed.grid.height(column, row));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
     compareWithFiner(own, skirt);

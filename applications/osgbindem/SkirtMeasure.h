@@ -4,14 +4,11 @@
 #pragma once
 
 #include "DemMosaic.h"
-#include "HeightGrid.h"
+#include "SurveyedTile.h"
 #include "TileLayout.h"
-
-#include <osgAnalyticBin/AnalyticBin.h>
 
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -36,16 +33,6 @@ private:
     std::map<TileId, bool> _known;
 };
 
-/// What hangs from one edge of a tile: metres per post, south to north or west to east.
-struct EdgeSkirt {
-    std::vector<double> depth;
-    /// How far the lower end leans outward.
-    std::vector<double> lean;
-};
-
-/// One skirt per edge, in the order of kEdges.
-using Skirt = std::array<EdgeSkirt, 4>;
-
 /// Measures how deep a tile's skirt has to be.
 ///
 /// Where tiles of two levels meet, their edges are two polylines through the same terrain, and the crack between them
@@ -64,10 +51,17 @@ public:
     SkirtMeasure(DemMosaic& mosaic, const TileLayout& layout, EdgeDepths& depths)
         : _mosaic(mosaic), _layout(layout), _depths(depths) {}
 
-    [[nodiscard]] Skirt measure(const HeightGrid& heights);
+    /// Gives the tile its skirts, rounded up to whole steps. Requires: it has its heights.
+    void measure(SurveyedTile& tile);
 
 private:
     struct Line;
+    /// What hangs from one edge of a tile: metres per post, south to north or west to east.
+    struct EdgeSkirt {
+        std::vector<double> depth;
+        /// How far the lower end leans outward.
+        std::vector<double> lean;
+    };
     /// What finer posts between two posts of an edge are below the chord, and fall short of it outward.
     struct Segment {
         double drop = 0.0;
@@ -77,7 +71,7 @@ private:
     /// By level and first post.
     using Segments = std::map<std::pair<int, std::size_t>, Segment>;
 
-    [[nodiscard]] EdgeSkirt measureEdge(const HeightGrid& heights, Edge edge);
+    [[nodiscard]] EdgeSkirt measureEdge(const SurveyedTile& surveyed, Edge edge);
     /// With all levels of tiles that stand along the edge, and only where they do.
     void compareWithFiner(const Line& own, EdgeSkirt& skirt);
     /// The tiles below those at a place along the edge, see Line::tileAt().
@@ -88,18 +82,6 @@ private:
     DemMosaic& _mosaic;
     const TileLayout& _layout;
     EdgeDepths& _depths;
-};
-
-/// A tile with everything below it in files: what its mesh and the tiles above need of it.
-struct SurveyedTile {
-    HeightGrid heights;
-    Skirt skirt;
-    /// The full-resolution heights under the tile.
-    HeightRange range;
-    /// Of the tile and everything below it.
-    Tally tally;
-    /// Holds the bins of all tiles below; not valid for a tile without children.
-    osgAnalyticBin::AnalyticBin below;
 };
 
 }  // namespace osgbindem

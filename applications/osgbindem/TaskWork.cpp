@@ -46,8 +46,8 @@ void split(const Task& task, double most, const DemMosaic& mosaic, const TileLay
 
 /// Does a task, unless an earlier run has done it and its files are whole.
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
-    const auto known = site.state.find(task.tile, site.layout);
-    if (known && known->files == site.files.sumBelow(task.tile)) {
+    const auto known = site.folder.find(task.tile, site.layout);
+    if (known && known->checksum == site.files.checksumBelow(task.tile)) {
         site.progress.add(task.weight, true);
         return;
     }
@@ -57,10 +57,8 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
         left -= share;
         site.progress.add(share);
     });
-    (void)builder.takeFileSum();
-    SurveyedTile tile = builder.survey(task.tile);
+    site.folder.keep(builder.survey(task.tile));
     builder.setLeafDone({});
-    site.state.keep({std::move(tile), builder.takeFileSum()});
     site.progress.add(left);
 }
 
@@ -145,18 +143,22 @@ void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& gla
     });
 }
 
-void buildStarts(const Site& site, const std::vector<Task>& plan, StartTiles& starts) {
+std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan) {
     std::set<TileId> done;
     for (const Task& task : plan) done.insert(task.tile);
+    const std::vector<TileId>& tiles = site.layout.startTiles();
+    std::vector<BuiltTile> starts(tiles.size());
+    std::atomic<std::size_t> next{0};
     inThreads(site, nullptr, [&](TileBuilder& builder, const FinishedTasks& standing) {
-        builder.setFinishedTasks([&](const TileId& tile) -> std::optional<SurveyedTile> {
+        builder.setFinishedTasks([&](const TileId& tile) {
             if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
-            auto record = site.state.find(tile, site.layout);
+            auto record = site.folder.find(tile, site.layout);
             if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
-            return std::move(record->tile);
+            return record;
         });
-        starts.build(builder);
+        for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
     });
+    return starts;
 }
 
 }  // namespace osgbindem

@@ -87,11 +87,11 @@ struct Task {
 struct Site {
     const Settings& settings;
     const TileLayout& layout;
-    const TileFiles& files;
-    const BuildState& state;
+    const DatabaseFolder& folder;
     Progress& progress;
     /// Of a database that is updated: finds tiles that stay as they are, for a builder that lasts as long.
     std::function<FinishedTasks(TileBuilder& builder)> standing = nullptr;
+    const TileFiles files = folder.files(layout);
 };
 
 /// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.
@@ -102,6 +102,6 @@ using Glance = std::function<void(bool isStopped)>;
 void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance);
 
 /// Builds the start tiles in threads, from what all tasks of the plan have left. Throws what was thrown first.
-void buildStarts(const Site& site, const std::vector<Task>& plan, StartTiles& starts);
+[[nodiscard]] std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan);
 
 }  // namespace osgbindem

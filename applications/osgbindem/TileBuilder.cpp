@@ -5,7 +5,7 @@
 
 #include "Interruption.h"
 #include "TileFiles.h"
-#include "TileMesh.h"
+#include "TileNode.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
@@ -24,7 +24,26 @@ namespace osgbindem {
 using osgAnalyticBin::support::throwIfStopRequested;
 
 using osgAnalyticBin::AnalyticBin;
+using osgAnalyticBin::TerrainGrid;
 using osgAnalyticBin::core::GeodeticBin;
+
+namespace {
+
+std::int32_t& heightIn(TerrainGrid& grid, int column, int row) {
+    return grid.heights[static_cast<std::size_t>((row + 1) * (grid.cells + 3) + column + 1)];
+}
+
+/// Every other post of a child is a post of its parent.
+void takePosts(SurveyedTile& parent, SurveyedTile& child) {
+    const int half = parent.grid.cells / 2;
+    const int firstColumn = child.id.x % 2 == 0 ? 0 : half;
+    const int firstRow = child.id.y % 2 == 0 ? 0 : half;
+    for (int row = 0; row <= half; ++row)
+        for (int column = 0; column <= half; ++column)
+            heightIn(parent.grid, firstColumn + column, firstRow + row) = heightIn(child.grid, 2 * column, 2 * row);
+}
+
+}  // namespace
 
 TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, const TileFiles& files)
     : _settings(settings),
@@ -34,7 +53,8 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
       _images(settings),
-      _triangles(osgAnalyticBin::trianglesOf(layout.cells())) {}
+      _triangles(osgAnalyticBin::trianglesOf(layout.cells())),
+      _shared(settings.packed ? 0 : layout.cells()) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
     if (_finished) {
@@ -48,7 +68,7 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
         if (_leafDone) _leafDone(tile);
         return leaf;
     }
-    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}, {}};
+    SurveyedTile surveyed = begun(tile);
     buildChildren(surveyed);
     finishSurvey(surveyed);
     return surveyed;
@@ -56,12 +76,25 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
 
 SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
     prefetch(tile);
-    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}, {}};
-    const Tally tally = surveyed.heights.sample(_mosaic, _layout);
+    SurveyedTile surveyed = begun(tile);
     // Tiles beside a region are there to surround it.
-    if (_layout.isInRegion(tile)) surveyed.tally = tally;
-    surveyed.tally.tiles = 1.0;
-    surveyed.tally.deepest = tile.level;
+    const bool isCounted = _layout.isInRegion(tile);
+    const RectDeg rect = tile.rect();
+    const double spacing = _layout.spacingDeg(tile.level);
+    const int cells = _layout.cells();
+    for (int row = 0; row <= cells; ++row) {
+        for (int column = 0; column <= cells; ++column) {
+            const auto found = samplePost(surveyed, column, row);
+            if (row == cells || column == cells || !isCounted) continue;
+            ++surveyed.tally.posts;
+            if (!found) ++surveyed.tally.missing;
+            if (found && found->isFilled) ++surveyed.tally.filled;
+            if (found) {
+                surveyed.tally.addHeight(surveyed.grid.height(column, row),
+                                         {rect.south + row * spacing, rect.west + column * spacing});
+            }
+        }
+    }
     finishSurvey(surveyed);
     return surveyed;
 }
@@ -71,63 +104,90 @@ void TileBuilder::prefetch(const TileId& tile) {
     _mosaic.prefetch(tile.rect().grownBy(_layout.spacingDeg(tile.level)));
 }
 
-void TileBuilder::finishSurvey(SurveyedTile& tile) {
-    tile.heights.sampleRing(_mosaic, _layout);
-    tile.skirt = _skirts.measure(tile.heights);
+SurveyedTile TileBuilder::begun(const TileId& tile) const {
+    SurveyedTile surveyed;
+    surveyed.id = tile;
+    surveyed.tally.tiles = 1.0;
+    surveyed.tally.deepest = tile.level;
+    TerrainGrid& grid = surveyed.grid;
+    grid.ellipsoid = _layout.ellipsoid();
+    grid.cells = _layout.cells();
+    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * grid.cells) << tile.level;
+    const PostId first = _layout.firstPost(tile, tile.level);
+    grid.firstColumn = first.column;
+    grid.firstRow = first.row;
+    grid.quantum = _layout.quantum(tile.level);
+    grid.heights.resize(static_cast<std::size_t>((grid.cells + 3) * (grid.cells + 3)));
+    return surveyed;
 }
 
-std::unique_ptr<BuiltTile> TileBuilder::build(const TileId& tile) {
-    return meshed(survey(tile));
+std::optional<DemMosaic::Found> TileBuilder::samplePost(SurveyedTile& tile, int column, int row) {
+    TerrainGrid& grid = tile.grid;
+    const auto found = _mosaic.find(_layout.position({tile.id.level, grid.firstColumn + column, grid.firstRow + row}));
+    // Posts that tiles share are rounded alike.
+    heightIn(grid, column, row) =
+        static_cast<std::int32_t>(std::nearbyint((found ? found->metres : 0.0) / TerrainGrid::kStep));
+    return found;
+}
+
+void TileBuilder::finishSurvey(SurveyedTile& tile) {
+    TerrainGrid& grid = tile.grid;
+    for (int i = -1; i <= grid.cells + 1; ++i) {
+        samplePost(tile, i, -1);
+        samplePost(tile, i, grid.cells + 1);
+        samplePost(tile, -1, i);
+        samplePost(tile, grid.cells + 1, i);
+    }
+    const int half = grid.cells / 2;
+    const PostId middle{tile.id.level, grid.firstColumn + half, grid.firstRow + half};
+    const HeightRange range = rangeOf(grid);
+    const glm::dvec3 point = grid.ellipsoid.toEcef(_layout.geodetic(middle, 0.5 * (range.lower + range.upper)));
+    for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::nearbyint(point[axis] / grid.quantum) * grid.quantum;
+    _skirts.measure(tile);
 }
 
 void TileBuilder::buildChildren(SurveyedTile& tile) {
-    const TileId& id = tile.heights.tile();
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    SharedParts shared = sharedParts();
-    for (const TileId& childId : id.children()) {
-        const std::unique_ptr<BuiltTile> child = build(childId);
-        tile.heights.takeFrom(child->heights);
-        tile.range.include(child->range);
-        tile.tally.add(child->tally);
-        tile.below.expandBy(child->bin);
-        file->addChild(child->node);
-        child->add(shared);
+    for (const TileId& childId : tile.id.children()) {
+        BuiltTile child = build(childId);
+        takePosts(tile, child.survey);
+        tile.range.include(child.survey.range);
+        tile.tally.add(child.survey.tally);
+        tile.below.expandBy(child.bin);
+        tile.checksum += child.survey.checksum;
+        file->addChild(child.node);
+        _shared.addTo(*child.geometry, child.survey.grid.textureSize);
     }
     const std::string bytes = nodeFileBytes(*file, _settings.compress);
-    _files.writeChildren(id, bytes);
-    _written.add(id, bytes);
-    ++tile.tally.tiles;
+    _files.writeChildren(tile.id, bytes);
+    tile.checksum += fileChecksum(tile.id, bytes);
     ++tile.tally.files;
     tile.tally.bytes += static_cast<double>(bytes.size());
 }
 
-std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
-    const TileId id = tile.heights.tile();
-    osgAnalyticBin::TerrainGrid grid = gridOf(tile.heights, tile.skirt, _layout);
+BuiltTile TileBuilder::build(const TileId& id) {
+    BuiltTile built;
+    built.survey = survey(id);
+    const SurveyedTile& tile = built.survey;
+    TerrainGrid& grid = built.survey.grid;
     const RectDeg rect = id.rect();
     AnalyticBin bin(GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east},
                                              {tile.range.lower, tile.range.upper}));
     bin.expandBy(tile.below);
-    MeshExtent extent = extentOf(grid, _triangles, id, _layout);
+    MeshExtent extent = extentOf(grid, _triangles, id);
     // Where a packed tile is read, vertices may be rounded to the next step, for sines differ in their last bits.
     if (_settings.packed) extent.bin.setMargin(extent.bin.margin() + 2.0 * grid.quantum);
     bin.expandBy(extent.bin);
     // What is stored is text, which may round outward: the tiles above have to hold that.
-    bin = AnalyticBin::fromText(bin.toText());
+    built.bin = AnalyticBin::fromText(bin.toText());
 
     colour(grid, _images.textureSize(id, grid.cells));
     const osg::ref_ptr<osg::Image> image = grid.textureSize > 0 ? _images.texture(id, grid) : nullptr;
-    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(grid, image, _settings.packed);
-    const osg::ref_ptr<osg::Node> placed = makePlaced(*geometry, grid.origin);
-    const TileFacts facts{bin, extent.surfaceLow, _layout, _settings.lodFactor,
+    built.geometry = makeGeometry(grid, image, _settings.packed);
+    const TileFacts facts{built.bin, extent.surfaceLow, _layout, _settings.lodFactor,
                           tile.below.valid() ? _files.childrenFile(id) : ""};
-    const osg::ref_ptr<osg::Node> node = makeTileNode(id, *placed, facts);
-    return std::make_unique<BuiltTile>(
-        BuiltTile{std::move(tile.heights), tile.range, tile.tally, bin, node, geometry, grid.textureSize});
-}
-
-SharedParts TileBuilder::sharedParts() const {
-    return _settings.packed ? SharedParts() : SharedParts(_triangles, _layout.cells());
+    built.node = makeTileNode(id, *makePlaced(*built.geometry, grid.origin), facts);
+    return built;
 }
 
 namespace {
@@ -175,28 +235,16 @@ void declareHorizon(osg::Group& root, const TileLayout& layout) {
 
 }  // namespace
 
-void StartTiles::build(TileBuilder& builder) {
-    for (std::size_t i = _next++; i < _tiles.size(); i = _next++) {
-        if (i == 0) _shared = builder.sharedParts();  // which are the same for all builders
-        _tiles[i] = builder.build(_layout.startTiles()[i]);
+std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
+                          const TileLayout& layout) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(settings);
+    SharedParts shared(settings.packed ? 0 : layout.cells());
+    for (const BuiltTile& tile : startTiles) {
+        root->addChild(tile.node);
+        shared.addTo(*tile.geometry, tile.survey.grid.textureSize);
     }
-}
-
-Tally StartTiles::tally() const {
-    Tally tally;
-    for (const auto& tile : _tiles) tally.add(tile->tally);
-    return tally;
-}
-
-std::string StartTiles::rootBytes() const {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(_settings);
-    SharedParts shared = *_shared;
-    for (const auto& tile : _tiles) {
-        root->addChild(tile->node);
-        tile->add(shared);
-    }
-    declareHorizon(*root, _layout);
-    return nodeFileBytes(*root, _settings.compress);
+    declareHorizon(*root, layout);
+    return nodeFileBytes(*root, settings.compress);
 }
 
 }  // namespace osgbindem

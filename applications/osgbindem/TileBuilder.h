@@ -4,21 +4,19 @@
 #pragma once
 
 #include "DemMosaic.h"
-#include "HeightGrid.h"
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
+#include "SurveyedTile.h"
 #include "TileFiles.h"
-#include "TileNode.h"
+#include "TileMesh.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <osg/Geometry>
 #include <osg/Node>
 
-#include <atomic>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,19 +26,12 @@ namespace osgbindem {
 
 /// A finished tile; everything below it is in files.
 struct BuiltTile {
-    HeightGrid heights;
-    /// The full-resolution heights under the tile.
-    HeightRange range;
-    Tally tally;
-    /// Holds those, what the mesh draws, and the bins of all tiles below.
+    SurveyedTile survey;
+    /// Holds the heights under the tile, what the mesh draws, and the bins of all tiles below.
     osgAnalyticBin::AnalyticBin bin;
     osg::ref_ptr<osg::Node> node;
+    /// Without what the tiles of a file share.
     osg::ref_ptr<osg::Geometry> geometry;
-    /// 0: none.
-    int textureSize = 0;
-
-    /// Completes the geometry.
-    void add(SharedParts& shared) const { shared.addTo(*geometry, textureSize); }
 };
 
 /// Finds what a task of the work plan has left of its tile; nullopt for every other tile.
@@ -66,22 +57,20 @@ public:
     [[nodiscard]] SurveyedTile surveyAlone(const TileId& tile);
 
     /// Surveys the tile and makes its mesh. Throws Failure, Interrupted.
-    [[nodiscard]] std::unique_ptr<BuiltTile> build(const TileId& tile);
-
-    /// The files written since the last call.
-    [[nodiscard]] FileSum takeFileSum() { return std::exchange(_written, {}); }
-
-    /// What the tiles of a file share.
-    [[nodiscard]] SharedParts sharedParts() const;
+    [[nodiscard]] BuiltTile build(const TileId& tile);
 
     [[nodiscard]] EdgeDepths& depths() noexcept { return _depths; }
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
 
 private:
     void prefetch(const TileId& tile);
-    void finishSurvey(SurveyedTile& tile);
+    [[nodiscard]] SurveyedTile begun(const TileId& tile) const;
+    /// Takes a post from the rasters, in whole steps; columns and rows of the ring around the tile are -1 and cells
+    /// + 1.
+    std::optional<DemMosaic::Found> samplePost(SurveyedTile& tile, int column, int row);
     void buildChildren(SurveyedTile& tile);
-    [[nodiscard]] std::unique_ptr<BuiltTile> meshed(SurveyedTile tile);
+    /// Adds the ring of posts around the tile, which the normals need, and the skirts.
+    void finishSurvey(SurveyedTile& tile);
 
     const Settings& _settings;
     const TileLayout& _layout;
@@ -91,33 +80,13 @@ private:
     SkirtMeasure _skirts;
     ImageMosaic _images;
     std::vector<std::uint16_t> _triangles;
+    SharedParts _shared;
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;
-    FileSum _written;
 };
 
-/// The start tiles, made of what the tasks have left of the tiles below them.
-class StartTiles final {
-public:
-    StartTiles(const Settings& settings, const TileLayout& layout)
-        : _settings(settings), _layout(layout), _tiles(layout.startTiles().size()) {}
-
-    /// Requires: all tasks are finished, and the builder finds what they have left. May be called by several threads;
-    /// they share the tiles.
-    void build(TileBuilder& builder);
-
-    /// Requires: all are built. The bytes of the root file.
-    [[nodiscard]] std::string rootBytes() const;
-
-    /// Requires: all are built.
-    [[nodiscard]] Tally tally() const;
-
-private:
-    const Settings& _settings;
-    const TileLayout& _layout;
-    std::vector<std::unique_ptr<BuiltTile>> _tiles;
-    std::optional<SharedParts> _shared;
-    std::atomic<std::size_t> _next{0};
-};
+/// The bytes of the root file. Throws Failure.
+[[nodiscard]] std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
+                                        const TileLayout& layout);
 
 }  // namespace osgbindem

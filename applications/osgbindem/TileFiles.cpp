@@ -52,11 +52,9 @@ std::string fileOf(const TileId& tile) {
 
 }  // namespace
 
-void FileSum::add(const TileId& tile, std::string_view content) noexcept {
-    ++files;
-    bytes += content.size();
+std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept {
     const int place[] = {tile.level, tile.x, tile.y};
-    checksum += checksumOf(content, checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
+    return checksumOf(content, checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
 }
 
 std::string startName(const TileId& tile) {
@@ -98,25 +96,14 @@ void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) cons
     osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
-FileSum TileFiles::sumBelow(const TileId& tile, FileSum sum) const {
+std::uint64_t TileFiles::checksumBelow(const TileId& tile) const {
     throwIfStopRequested();
-    if (!hasChildren(tile)) return sum;
-    sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
+    if (!hasChildren(tile)) return 0;
+    std::uint64_t sum = fileChecksum(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
     if (tile.level + 1 >= TileLayout::kDeepest) return sum;
-    for (const TileId& child : tile.children()) sum = sumBelow(child, sum);
+    for (const TileId& child : tile.children()) sum += checksumBelow(child);
     return sum;
 }
-
-namespace {
-
-osgDB::ReaderWriter& writer() {
-    osgDB::ReaderWriter* found = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
-    if (found == nullptr)
-        throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
-    return *found;
-}
-
-}  // namespace
 
 void prepareNodeFiles() {
     osgAnalyticBin::addModuleFolder();
@@ -134,8 +121,11 @@ std::string nodeFileBytes(const osg::Node& node, bool compress) {
     options->setPluginStringData("fileType", "Binary");
     options->setPluginStringData("WriteImageHint", "IncludeData");
     if (compress) options->setPluginStringData("Compressor", "zlib");
+    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
+    if (writer == nullptr)
+        throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
     std::ostringstream stream;
-    const osgDB::ReaderWriter::WriteResult result = writer().writeNode(node, stream, options);
+    const osgDB::ReaderWriter::WriteResult result = writer->writeNode(node, stream, options);
     if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
     return stream.str();
 }

@@ -13,19 +13,8 @@
 
 namespace osgbindem {
 
-/// What the files below a tile add up to, in whatever order they were written or read back.
-struct FileSum {
-    std::uint64_t files = 0;
-    std::uint64_t bytes = 0;
-    std::uint64_t checksum = 0;
-
-    /// The file with the children of a tile.
-    void add(const TileId& tile, std::string_view content) noexcept;
-
-    [[nodiscard]] bool operator==(const FileSum& other) const noexcept {
-        return files == other.files && bytes == other.bytes && checksum == other.checksum;
-    }
-};
+/// Of the file with the children of a tile.
+[[nodiscard]] std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept;
 
 /// Name of a start tile, for what is kept apart for each of them: "X03_Y7".
 [[nodiscard]] std::string startName(const TileId& tile);
@@ -51,8 +40,8 @@ public:
     [[nodiscard]] std::string pathOfChildren(const TileId& tile) const;
     [[nodiscard]] bool hasChildren(const TileId& tile) const;
 
-    /// Reads back all files below a tile. Returns: `sum` with them.
-    [[nodiscard]] FileSum sumBelow(const TileId& tile, FileSum sum = {}) const;
+    /// Reads back all files below a tile. Returns: the sum of their checksums.
+    [[nodiscard]] std::uint64_t checksumBelow(const TileId& tile) const;
 
 private:
     std::string _folder;

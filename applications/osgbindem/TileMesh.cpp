@@ -137,35 +137,13 @@ constexpr double kAxisTolerance = 1.0;
 // Covers the rounding within GeodeticMeshBounds (1e-7 m).
 constexpr double kMargin = 1e-6;
 
-double rounded(double value, double quantum) {
-    return std::nearbyint(value / quantum) * quantum;
-}
-
-std::vector<std::int32_t> stepsUp(const std::vector<double>& metres) {
-    std::vector<std::int32_t> steps;
-    for (const double value : metres) steps.push_back(static_cast<std::int32_t>(std::ceil(value / TerrainGrid::kStep)));
-    return steps;
-}
-
-glm::dvec3 originOf(const HeightGrid& heights, const TileLayout& layout) {
-    PostId middle = layout.firstPost(heights.tile(), heights.tile().level);
-    middle.column += layout.cells() / 2;
-    middle.row += layout.cells() / 2;
-    const HeightRange range = heights.range();
-    const glm::dvec3 point = layout.ellipsoid().toEcef(layout.geodetic(middle, 0.5 * (range.lower + range.upper)));
-    const double quantum = layout.quantum(heights.tile().level);
-    return {rounded(point.x, quantum), rounded(point.y, quantum), rounded(point.z, quantum)};
-}
-
 /// Finds which vertices and triangles of the surface can be at an end of the bin. All others are well within: in
 /// latitude and longitude those that do not stand at the border, whose neighbours are a whole cell away, and in
 /// altitude those that are higher than the lowest post by more than chords sag, and lower than the highest.
 class Extremes {
 public:
-    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid) {
+    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid), _range(rangeOf(grid)) {
         const auto posts = static_cast<std::size_t>(grid.cells + 1);
-        for (int row = 0; row <= grid.cells; ++row)
-            for (int column = 0; column <= grid.cells; ++column) _range.include(grid.height(column, row));
         const double reach = std::max(std::abs(_range.lower), std::abs(_range.upper));
         const osgAnalyticBin::core::GeodeticGridBounds bounds(
             grid.ellipsoid,
@@ -230,34 +208,27 @@ osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid
     return geometry;
 }
 
-TerrainGrid gridOf(const HeightGrid& heights, const Skirt& skirt, const TileLayout& layout) {
-    const int level = heights.tile().level;
-    TerrainGrid grid;
-    grid.ellipsoid = layout.ellipsoid();
-    grid.cells = layout.cells();
-    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * layout.cells()) << level;
-    const PostId first = layout.firstPost(heights.tile(), level);
-    grid.firstColumn = first.column;
-    grid.firstRow = first.row;
-    grid.quantum = layout.quantum(level);
-    grid.origin = originOf(heights, layout);
-    grid.heights.reserve(static_cast<std::size_t>((grid.cells + 3) * (grid.cells + 3)));
-    for (int row = -1; row <= grid.cells + 1; ++row)
-        for (int column = -1; column <= grid.cells + 1; ++column)
-            grid.heights.push_back(
-                static_cast<std::int32_t>(std::nearbyint(heights.at(column, row) / TerrainGrid::kStep)));
-    for (std::size_t edge = 0; edge < kEdges.size(); ++edge)
-        grid.skirts[edge] = {stepsUp(skirt[edge].depth), stepsUp(skirt[edge].lean)};
-    return grid;
+SharedParts::SharedParts(int cells) : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)), _cells(cells) {
+    const std::vector<std::uint16_t> triangles = osgAnalyticBin::trianglesOf(cells);
+    _triangles->assign(triangles.begin(), triangles.end());
 }
 
-MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& triangles, const TileId& tile,
-                    const TileLayout& layout) {
-    using namespace osgAnalyticBin;
+void SharedParts::addTo(osg::Geometry& geometry, int textureSize) {
+    geometry.addPrimitiveSet(_triangles);
+    if (textureSize == 0) return;
+    osg::ref_ptr<osg::Vec2Array>& coordinates = _texCoords[textureSize];
+    if (!coordinates) {
+        coordinates = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
+        if (_cells > 0) osgAnalyticBin::addTextureCoordinates(_cells, textureSize, *coordinates);
+    }
+    geometry.setTexCoordArray(0, coordinates);
+}
+
+MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& triangles, const TileId& tile) {
+    namespace core = osgAnalyticBin::core;
     const RectDeg rect = tile.rect();
     const double axisTolerance = tile.touchesPole() ? kAxisTolerance : 0.0;
-    core::GeodeticMeshBounds bounds(layout.ellipsoid(), 0.5 * (rect.west + rect.east) * kRadiansPerDegree,
-                                    axisTolerance);
+    core::GeodeticMeshBounds bounds(grid.ellipsoid, 0.5 * (rect.west + rect.east) * kRadiansPerDegree, axisTolerance);
     std::vector<glm::dvec3> drawn = verticesOf(grid);
     for (glm::dvec3& vertex : drawn) vertex = grid.origin + glm::dvec3(glm::vec3(vertex - grid.origin));
     const auto expandByTriangle = [&](std::size_t first) {
@@ -279,7 +250,7 @@ MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& t
     const double surfaceLow = bounds.bin().altitude().lower;
     for (; vertex < drawn.size(); ++vertex) bounds.expandByVertex(drawn[vertex]);
     for (; index + 2 < triangles.size(); index += 3) expandByTriangle(index);
-    return {AnalyticBin(bounds.bin(), kMargin + axisTolerance), surfaceLow};
+    return {osgAnalyticBin::AnalyticBin(bounds.bin(), kMargin + axisTolerance), surfaceLow};
 }
 
 }  // namespace osgbindem

@@ -3,18 +3,16 @@
 
 #pragma once
 
-#include "HeightGrid.h"
-#include "SkirtMeasure.h"
-#include "TerrainGrid.h"
+#include "SurveyedTile.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
-#include <glm/vec3.hpp>
 #include <osg/Geometry>
 #include <osg/Image>
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace osgbindem {
@@ -30,9 +28,21 @@ void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize);
 [[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image,
                                                        bool isPacked);
 
-/// The tile as it is stored, but for its colours. Heights and skirts are in whole steps; skirts are rounded up.
-[[nodiscard]] osgAnalyticBin::TerrainGrid gridOf(const HeightGrid& heights, const Skirt& skirt,
-                                                 const TileLayout& layout);
+/// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
+class SharedParts final {
+public:
+    /// `cells`: 0 for packed tiles, which are filled when they are read.
+    explicit SharedParts(int cells);
+
+    /// Completes the geometry. `textureSize`: 0 without a texture.
+    void addTo(osg::Geometry& geometry, int textureSize);
+
+private:
+    osg::ref_ptr<osg::DrawElementsUShort> _triangles;
+    int _cells;
+    /// By the size of the texture.
+    std::map<int, osg::ref_ptr<osg::Vec2Array>> _texCoords;
+};
 
 /// Where a mesh lies.
 struct MeshExtent {
@@ -44,6 +54,6 @@ struct MeshExtent {
 /// Guarantee: the bin holds every point of every triangle; the margin covers vertices at the axis, which have no
 /// longitude.
 [[nodiscard]] MeshExtent extentOf(const osgAnalyticBin::TerrainGrid& grid, const std::vector<std::uint16_t>& triangles,
-                                  const TileId& tile, const TileLayout& layout);
+                                  const TileId& tile);
 
 }  // namespace osgbindem

@@ -3,8 +3,6 @@
 
 #include "TileNode.h"
 
-#include "TerrainGrid.h"
-
 #include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
@@ -74,24 +72,6 @@ osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, cons
     osgAnalyticBin::setStoredBin(*node, facts.bin);
     osgAnalyticBin::setStoredSurfaceLow(*node, facts.surfaceLow);
     return node;
-}
-
-SharedParts::SharedParts(const std::vector<std::uint16_t>& triangles, int cells) : SharedParts() {
-    _triangles->assign(triangles.begin(), triangles.end());
-    _cells = cells;
-}
-
-SharedParts::SharedParts() : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)) {}
-
-void SharedParts::addTo(osg::Geometry& geometry, int textureSize) {
-    geometry.addPrimitiveSet(_triangles);
-    if (textureSize == 0) return;
-    osg::ref_ptr<osg::Vec2Array>& coordinates = _texCoords[textureSize];
-    if (!coordinates) {
-        coordinates = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
-        if (_cells > 0) osgAnalyticBin::addTextureCoordinates(_cells, textureSize, *coordinates);
-    }
-    geometry.setTexCoordArray(0, coordinates);
 }
 
 }  // namespace osgbindem

@@ -11,10 +11,7 @@
 #include <osg/Geometry>
 #include <osg/Group>
 
-#include <cstdint>
-#include <map>
 #include <string>
-#include <vector>
 
 namespace osgbindem {
 
@@ -41,23 +38,5 @@ struct TileFacts {
 
 /// A PagedLOD, or a Group for a tile without children, that carries the bin.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, const TileFacts& facts);
-
-/// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
-class SharedParts final {
-public:
-    SharedParts(const std::vector<std::uint16_t>& triangles, int cells);
-
-    /// Empty, for packed tiles: they are filled when they are read.
-    SharedParts();
-
-    /// Completes the geometry. `textureSize`: 0 without a texture.
-    void addTo(osg::Geometry& geometry, int textureSize);
-
-private:
-    osg::ref_ptr<osg::DrawElementsUShort> _triangles;
-    int _cells = 0;
-    /// By the size of the texture.
-    std::map<int, osg::ref_ptr<osg::Vec2Array>> _texCoords;
-};
 
 }  // namespace osgbindem
