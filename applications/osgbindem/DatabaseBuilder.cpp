@@ -1,20 +1,22 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BuildSources.h"
 #include "DatabaseFolder.h"
 #include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
+#include "ProgramRun.h"
 #include "TaskWork.h"
 #include "TileFiles.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace osgbindem {
@@ -25,6 +27,11 @@ using osgAnalyticBin::support::stopRequested;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
+
+/// Ends the program, MPI's part left out, as mpirun wants it after a signal.
+[[noreturn]] void leaveAfterSignal() {
+    std::_Exit(osgAnalyticBin::support::kInterrupted);
+}
 
 /// Says what an earlier run has left, and makes the state one of this database.
 void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder) {
@@ -84,7 +91,8 @@ public:
             return;
         // It was sent before that rank came.
         std::optional<std::string> text;
-        while (_ranks.isFirst() && !(text = _ranks.failureElsewhere())) waitABit();
+        while (_ranks.isFirst() && !(text = _ranks.failureElsewhere()))
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
         fail(text.value_or(""));
     }
     /// This rank has failed: returns when no other one writes any more.

@@ -92,24 +92,25 @@ DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _most
     }
 }
 
-VoidFill::Below DemMosaic::below(std::size_t source, const PositionDeg& position) {
-    const auto found = heightFrom(source + 1, position);
+FoundHeight DemMosaic::below(std::size_t source, const PositionDeg& position) {
+    auto found = heightFrom(source + 1, position);
     if (!found) return {};
     const double rivalDeg = kRival * _sources[source]->layer().spacingDeg();
-    return {found->metres - _shifts[source].at(position),
-            !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg};
+    found->metres -= _shifts[source].at(position);
+    found->isRival = !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg;
+    return *found;
 }
 
-std::optional<DemMosaic::Found> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
+std::optional<FoundHeight> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
-        const auto height = _sources[i]->height(position);
-        if (!height) continue;
-        Found found{*height, i};
-        if (!_shifts[i].isNone()) found.metres += _shifts[i].at(position);
+        auto found = _sources[i]->height(position);
+        if (!found) continue;
+        found->source = i;
+        if (!_shifts[i].isNone()) found->metres += _shifts[i].at(position);
         const double own = _sources[i]->layer().share(position);
         if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);
-        if (coarser) found.metres = coarser->metres + own * (found.metres - coarser->metres);
+        if (coarser) found->metres = coarser->metres + own * (found->metres - coarser->metres);
         return found;
     }
     return std::nullopt;

@@ -56,13 +56,9 @@ public:
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 
-    /// Above the ellipsoid.
-    struct Found : SourceHeight {
-        std::size_t source = 0;
-    };
-
-    /// The same for the same position, whatever was read before. Returns: nullopt where no raster has data.
-    [[nodiscard]] std::optional<Found> find(const PositionDeg& position) { return heightFrom(0, position); }
+    /// Above the ellipsoid; the same for the same position, whatever was read before. Returns: nullopt where no raster
+    /// has data.
+    [[nodiscard]] std::optional<FoundHeight> find(const PositionDeg& position) { return heightFrom(0, position); }
 
     /// Metres above the ellipsoid, 0 where no raster has data.
     [[nodiscard]] double height(const PositionDeg& position) {
@@ -94,10 +90,10 @@ public:
 
 private:
     /// Of the layers from this one on, finest first; nullopt where none of them has data.
-    [[nodiscard]] std::optional<Found> heightFrom(std::size_t source, const PositionDeg& position);
+    [[nodiscard]] std::optional<FoundHeight> heightFrom(std::size_t source, const PositionDeg& position);
 
     /// What the coarser layers have, as heights of this one.
-    [[nodiscard]] VoidFill::Below below(std::size_t source, const PositionDeg& position);
+    [[nodiscard]] FoundHeight below(std::size_t source, const PositionDeg& position);
 
     /// As DemSource::addRange(), above the ellipsoid.
     [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);

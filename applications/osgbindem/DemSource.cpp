@@ -48,12 +48,12 @@ double DemSource::post(int column, int row) {
     return _single.front();
 }
 
-std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
+std::optional<FoundHeight> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
     // Nearly always one page has all four posts.
     const Page* page = pageWith({cell->west, cell->first, cell->east - cell->west + 1, cell->second - cell->first + 1});
-    SourceHeight result;
+    FoundHeight result;
     bool isOwn = false;
     const auto at = [&](int column, int row) {
         const double height =
@@ -62,10 +62,10 @@ std::optional<SourceHeight> DemSource::height(const PositionDeg& position) {
             isOwn = true;
             return height;
         }
-        const VoidFill::Below filled = _voids.at(column, row);
+        const FoundHeight filled = _voids.at(column, row);
         isOwn = isOwn || !filled.isRival;
         result.isFilled = result.isFilled || !filled.isRival;
-        return filled.height;
+        return filled.metres;
     };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
@@ -122,9 +122,8 @@ bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
             const int place = static_cast<int>(i);
             double height = heights[i];
             if (std::isnan(height)) {
-                const VoidFill::Below filled =
-                    _voids.at(part.column + place % part.width, part.row + place / part.width);
-                height = filled.height;
+                const FoundHeight filled = _voids.at(part.column + place % part.width, part.row + place / part.width);
+                height = filled.metres;
                 isComplete = isComplete && !filled.isRival && !std::isnan(height);
             }
             if (!std::isnan(height)) range.include(height);

@@ -28,13 +28,6 @@ struct HeightRange {
     }
 };
 
-/// A height of a raster.
-struct SourceHeight {
-    double metres = 0.0;
-    /// No data: what stands in a void.
-    bool isFilled = false;
-};
-
 /// One layer of elevation rasters. Reads windows only; keeps the last window that was prefetched.
 /// Not for use by several threads: each has its own.
 class DemSource final {
@@ -53,7 +46,7 @@ public:
     [[nodiscard]] VoidFill& voids() noexcept { return _voids; }
 
     /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
-    [[nodiscard]] std::optional<SourceHeight> height(const PositionDeg& position);
+    [[nodiscard]] std::optional<FoundHeight> height(const PositionDeg& position);
 
     /// Whether any post within the rectangle has data.
     [[nodiscard]] bool hasData(const RectDeg& rect);

@@ -4,33 +4,144 @@
 #include "ImageMosaic.h"
 
 #include "Failure.h"
+#include "RasterLayer.h"
 #include "TileMesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 
-namespace {
+/// A colour over others.
+struct Cover {
+    /// Red, green, blue, 0 to 255.
+    std::array<double, 3> colour{};
+    /// 0: what is below is seen, 1: it is not.
+    double alpha = 0.0;
 
-constexpr std::uint8_t kOpaque = 255;
-
-constexpr int kSmallest = 16;
-constexpr int kLargest = 256;
-
-/// The top with this alpha over what is below.
-Cover over(const Cover& top, double alpha, const Cover& below) {
-    Cover cover;
-    cover.alpha = alpha + (1.0 - alpha) * below.alpha;
-    const double share = alpha / cover.alpha;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        cover.colour[channel] = below.colour[channel] + share * (top.colour[channel] - below.colour[channel]);
+    /// With this alpha over what is below.
+    [[nodiscard]] Cover over(double own, const Cover& below) const {
+        Cover cover;
+        cover.alpha = own + (1.0 - own) * below.alpha;
+        const double share = own / cover.alpha;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            cover.colour[channel] = below.colour[channel] + share * (colour[channel] - below.colour[channel]);
+        }
+        return cover;
     }
-    return cover;
-}
+};
+
+/// One layer of images. Not for use by several threads: each has its own.
+class ImageSource final {
+public:
+    explicit ImageSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)) {}
+
+    [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
+
+    /// Whether an image of the layer has a part in the rectangle.
+    [[nodiscard]] bool overlaps(const RectDeg& rect) const noexcept {
+        const auto& members = _layer->members();
+        return std::any_of(members.begin(), members.end(),
+                           [&](const RasterLayer::Member& member) { return member.grid.overlap(rect) > 0.0; });
+    }
+
+    /// Whether the images of the layer cover it.
+    [[nodiscard]] bool covers(const RectDeg& rect) const noexcept {
+        double sum = 0.0;
+        for (const RasterLayer::Member& member : _layer->members()) {
+            if (member.grid.covers(rect)) return true;
+            sum += member.grid.overlap(rect);
+        }
+        constexpr double kRounding = 1e-6;
+        return grid().covers(rect) && sum >= (1.0 - kRounding) * (rect.east - rect.west) * (rect.north - rect.south);
+    }
+
+    /// Reads the part that touches the rectangle, reduced to so many pixels along a side at most, in place of the one
+    /// before. Returns: whether there is any. Throws Failure.
+    bool load(const RectDeg& rect, int mostPixels) {
+        _patches.clear();
+        for (const PixelWindow& window : grid().touching(rect)) read(window, mostPixels);
+        return !_patches.empty();
+    }
+
+    /// Bilinear between pixels of the part that is loaded. Outside, and where pixels are transparent, masked or nodata,
+    /// nothing is covered.
+    [[nodiscard]] Cover sample(const PositionDeg& position) const noexcept {
+        constexpr std::uint8_t kOpaque = 255;
+        Cover cover;
+        const auto cell = grid().locate(position);
+        if (!cell) return cover;
+        const double u = cell->eastWeight;
+        const double v = cell->secondWeight;
+        const std::array<const std::uint8_t*, 4> pixels{find(cell->west, cell->first), find(cell->east, cell->first),
+                                                        find(cell->west, cell->second), find(cell->east, cell->second)};
+        const std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+        bool isOpaque = true;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (weights[i] == 0.0) continue;
+            const std::uint8_t alpha = pixels[i] == nullptr ? 0 : pixels[i][3];
+            isOpaque = isOpaque && alpha == kOpaque;
+            if (alpha == 0) continue;
+            const double weight = alpha == kOpaque ? weights[i] : weights[i] * alpha / kOpaque;
+            cover.alpha += weight;
+            for (std::size_t channel = 0; channel < 3; ++channel) cover.colour[channel] += weight * pixels[i][channel];
+        }
+        if (isOpaque) {
+            cover.alpha = 1.0;  // a sum of weights may miss it by its rounding
+        } else if (cover.alpha > 0.0) {
+            for (double& channel : cover.colour) channel /= cover.alpha;
+        }
+        return cover;
+    }
+
+private:
+    /// Part of the image; four bytes a pixel, the last one its alpha.
+    struct Patch {
+        PixelWindow window;
+        int width = 0;
+        int height = 0;
+        std::vector<std::uint8_t> pixels;
+    };
+
+    void read(const PixelWindow& window, int mostPixels) {
+        Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
+        patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
+        GDALRasterIOExtraArg extra;
+        INIT_RASTERIO_EXTRA_ARG(extra);
+        extra.eResampleAlg = GRIORA_Average;
+        const CPLErr error = _layer->dataset().RasterIO(GF_Read, window.column, window.row, window.width, window.height,
+                                                        patch.pixels.data(), patch.width, patch.height, GDT_Byte, 4,
+                                                        nullptr, 4, GSpacing{4} * patch.width, 1, &extra);
+        if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+        _patches.push_back(std::move(patch));
+    }
+
+    [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept {
+        // divisions would take most of the time where nothing is reduced
+        const auto reduced = [](int place, int size, int from) {
+            return size == from ? place : static_cast<int>(static_cast<std::int64_t>(place) * size / from);
+        };
+        for (const Patch& patch : _patches) {
+            if (!patch.window.contains(column, row)) continue;
+            const int x = reduced(column - patch.window.column, patch.width, patch.window.width);
+            const int y = reduced(row - patch.window.row, patch.height, patch.window.height);
+            return patch.pixels.data() + 4 * (static_cast<std::ptrdiff_t>(y) * patch.width + x);
+        }
+        return nullptr;
+    }
+
+    std::unique_ptr<RasterLayer> _layer;
+    std::vector<Patch> _patches;
+};
+
+namespace {
 
 /// The colours of the relief between the posts of a tile.
 class Relief {
@@ -65,90 +176,13 @@ private:
 
 }  // namespace
 
-bool ImageSource::overlaps(const RectDeg& rect) const noexcept {
-    const auto& members = _layer->members();
-    return std::any_of(members.begin(), members.end(),
-                       [&](const RasterLayer::Member& member) { return member.grid.overlap(rect) > 0.0; });
-}
-
-bool ImageSource::covers(const RectDeg& rect) const noexcept {
-    double sum = 0.0;
-    for (const RasterLayer::Member& member : _layer->members()) {
-        if (member.grid.covers(rect)) return true;
-        sum += member.grid.overlap(rect);
-    }
-    constexpr double kRounding = 1e-6;
-    return grid().covers(rect) && sum >= (1.0 - kRounding) * (rect.east - rect.west) * (rect.north - rect.south);
-}
-
-const std::uint8_t* ImageSource::Patch::pixel(int column, int row) const noexcept {
-    // divisions would take most of the time where nothing is reduced
-    const auto reduced = [](int place, int size, int from) {
-        return size == from ? place : static_cast<int>(static_cast<std::int64_t>(place) * size / from);
-    };
-    const int x = reduced(column - window.column, width, window.width);
-    const int y = reduced(row - window.row, height, window.height);
-    return pixels.data() + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
-}
-
-bool ImageSource::load(const RectDeg& rect, int mostPixels) {
-    _patches.clear();
-    for (const PixelWindow& window : grid().touching(rect)) _patches.push_back(read(window, mostPixels));
-    return !_patches.empty();
-}
-
-ImageSource::Patch ImageSource::read(const PixelWindow& window, int mostPixels) const {
-    Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
-    patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
-    GDALRasterIOExtraArg extra;
-    INIT_RASTERIO_EXTRA_ARG(extra);
-    extra.eResampleAlg = GRIORA_Average;
-    const CPLErr error = _layer->dataset().RasterIO(GF_Read, window.column, window.row, window.width, window.height,
-                                                    patch.pixels.data(), patch.width, patch.height, GDT_Byte, 4,
-                                                    nullptr, 4, GSpacing{4} * patch.width, 1, &extra);
-    if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
-    return patch;
-}
-
-const std::uint8_t* ImageSource::find(int column, int row) const noexcept {
-    for (const Patch& patch : _patches) {
-        if (patch.window.contains(column, row)) return patch.pixel(column, row);
-    }
-    return nullptr;
-}
-
-Cover ImageSource::sample(const PositionDeg& position) const noexcept {
-    Cover cover;
-    const auto cell = grid().locate(position);
-    if (!cell) return cover;
-    const double u = cell->eastWeight;
-    const double v = cell->secondWeight;
-    const std::array<const std::uint8_t*, 4> pixels{find(cell->west, cell->first), find(cell->east, cell->first),
-                                                    find(cell->west, cell->second), find(cell->east, cell->second)};
-    const std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    bool isOpaque = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (weights[i] == 0.0) continue;
-        const std::uint8_t alpha = pixels[i] == nullptr ? 0 : pixels[i][3];
-        isOpaque = isOpaque && alpha == kOpaque;
-        if (alpha == 0) continue;
-        const double weight = alpha == kOpaque ? weights[i] : weights[i] * alpha / kOpaque;
-        cover.alpha += weight;
-        for (std::size_t channel = 0; channel < 3; ++channel) cover.colour[channel] += weight * pixels[i][channel];
-    }
-    if (isOpaque) {
-        cover.alpha = 1.0;  // a sum of weights may miss it by its rounding
-    } else if (cover.alpha > 0.0) {
-        for (double& channel : cover.colour) channel /= cover.alpha;
-    }
-    return cover;
-}
-
 ImageMosaic::ImageMosaic(const Settings& settings) {
     for (auto& layer : RasterLayer::imagesOf(settings)) {
         _layers.push_back(std::make_unique<ImageSource>(std::move(layer)));
     }
 }
+
+ImageMosaic::~ImageMosaic() = default;
 
 int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
     const RectDeg rect = tile.rect();
@@ -161,6 +195,8 @@ int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
     if (!finest) return 0;
     const double pixels = std::ldexp(TileLayout::kStartTileDeg, -tile.level) / finest->grid().resolutionDeg();
     const double wanted = isCovered ? pixels : std::max(pixels, static_cast<double>(cells));
+    constexpr int kSmallest = 16;
+    constexpr int kLargest = 256;
     int size = kSmallest;
     while (size < kLargest && size < wanted) size *= 2;
     return size;
@@ -174,7 +210,7 @@ Cover ImageMosaic::sample(std::size_t first, const PositionDeg& position) const 
         if (own.alpha == 1.0 && share == 1.0) return own;
         const Cover below = sample(i + 1, position);
         // In its band an image gives way to coarser images, and not to the relief.
-        return over(own, own.alpha * (1.0 - (1.0 - share) * below.alpha), below);
+        return own.over(own.alpha * (1.0 - (1.0 - share) * below.alpha), below);
     }
     return {};
 }
@@ -198,7 +234,7 @@ osg::ref_ptr<osg::Image> ImageMosaic::texture(const TileId& tile, const osgAnaly
             Cover cover = sample(0, {latitudeDeg, rect.west + eastShare * (rect.east - rect.west)});
             if (cover.alpha < 1.0) {
                 if (!relief) relief.emplace(grid);
-                cover = over(cover, cover.alpha, relief->at(eastShare, northShare));
+                cover = cover.over(cover.alpha, relief->at(eastShare, northShare));
             }
             for (const double channel : cover.colour) *target++ = static_cast<std::uint8_t>(channel + 0.5);
         }

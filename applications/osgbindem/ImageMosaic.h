@@ -3,67 +3,20 @@
 
 #pragma once
 
-#include "RasterLayer.h"
 #include "Settings.h"
 #include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <osg/Image>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace osgbindem {
 
-/// A colour over others.
-struct Cover {
-    /// Red, green, blue, 0 to 255.
-    std::array<double, 3> colour{};
-    /// 0: what is below is seen, 1: it is not.
-    double alpha = 0.0;
-};
-
-/// One layer of images. Not for use by several threads: each has its own.
-class ImageSource final {
-public:
-    explicit ImageSource(std::unique_ptr<RasterLayer> layer) : _layer(std::move(layer)) {}
-
-    [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
-    [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
-
-    /// Whether an image of the layer has a part in the rectangle, and whether one covers it.
-    [[nodiscard]] bool overlaps(const RectDeg& rect) const noexcept;
-    [[nodiscard]] bool covers(const RectDeg& rect) const noexcept;
-
-    /// Reads the part that touches the rectangle, reduced to so many pixels along a side at most, in place of the one
-    /// before. Returns: whether there is any. Throws Failure.
-    bool load(const RectDeg& rect, int mostPixels);
-
-    /// Bilinear between pixels of the part that is loaded. Outside, and where pixels are transparent, masked or nodata,
-    /// nothing is covered.
-    [[nodiscard]] Cover sample(const PositionDeg& position) const noexcept;
-
-private:
-    /// Part of the image; four bytes a pixel, the last one its alpha.
-    struct Patch {
-        PixelWindow window;
-        int width = 0;
-        int height = 0;
-        std::vector<std::uint8_t> pixels;
-
-        [[nodiscard]] const std::uint8_t* pixel(int column, int row) const noexcept;
-    };
-
-    [[nodiscard]] Patch read(const PixelWindow& window, int mostPixels) const;
-    [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept;
-
-    std::unique_ptr<RasterLayer> _layer;
-    std::vector<Patch> _patches;
-};
+struct Cover;
+class ImageSource;
 
 /// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, its
 /// border blended with coarser ones, and the colours of the relief where none has.
@@ -72,6 +25,7 @@ class ImageMosaic final {
 public:
     /// Throws Failure.
     explicit ImageMosaic(const Settings& settings);
+    ~ImageMosaic();
 
     /// Texels along the edge of a tile's texture, a power of two: no more than the finest image there has, nor fewer
     /// than the tile has cells where images leave a part of it to the relief. Returns: 0 where there is no image.

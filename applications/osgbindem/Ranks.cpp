@@ -7,7 +7,6 @@
 #include "ModuleFolder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <iterator>
@@ -21,8 +20,6 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-constexpr int kInterrupted = 130;
-
 // Set by launchers that speak to MPI: Open MPI's mpirun; prrte and Slurm's srun --mpi=pmix; srun --mpi=pmi2 and others.
 // SLURM_PROCID is no sign: every program of a batch file has it.
 constexpr const char* kSizeVariables[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
@@ -30,11 +27,6 @@ constexpr const char* kRankVariables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "
 
 // What MPI says counts more than the environment: launcher and library may not know each other.
 std::optional<int> startedRank;
-
-bool isLaunchedAlone() {
-    const char* size = std::getenv(kSizeVariables[0]);
-    return size && std::atoi(size) == 1;
-}
 
 }  // namespace
 
@@ -49,14 +41,6 @@ bool isSpeaker() {
         if (const char* value = std::getenv(name)) return std::atoi(value) == 0;
     }
     return true;
-}
-
-void leaveAfterSignal() {
-    std::_Exit(kInterrupted);
-}
-
-void waitABit() {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 int threadsPerRank(const Ranks& ranks) {
@@ -76,7 +60,8 @@ std::unique_ptr<Ranks> joinRanks() {
     void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
     const auto join = library ? reinterpret_cast<JoinRanks>(dlsym(library, kJoinRanks)) : nullptr;
     if (!join) {
-        if (isLaunchedAlone()) return std::make_unique<Ranks>();
+        const char* size = std::getenv(kSizeVariables[0]);
+        if (size && std::atoi(size) == 1) return std::make_unique<Ranks>();  // launched alone
         throw Failure(
             "without its module for MPI osgbindem runs alone: run it without mpirun, or install the module "
             "(on Debian: osganalyticbin-mpi); " +

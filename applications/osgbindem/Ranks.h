@@ -48,12 +48,6 @@ constexpr const char* kJoinRanks = "osgbindemJoinRanks";
 /// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has started.
 [[nodiscard]] bool isSpeaker();
 
-/// Ends the program, MPI's part left out, as mpirun wants it after a signal.
-[[noreturn]] void leaveAfterSignal();
-
-/// Between two glances at what others say.
-void waitABit();
-
 /// Threads for each program, so that those on one machine keep its processors busy.
 [[nodiscard]] int threadsPerRank(const Ranks& ranks);
 

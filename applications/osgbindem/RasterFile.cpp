@@ -5,9 +5,9 @@
 
 #include "Failure.h"
 #include "Interruption.h"
-#include "WarpedPlace.h"
 
 #include <cpl_string.h>
+#include <gdal_alg.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
@@ -143,6 +143,89 @@ std::string verticalOf(const OGRSpatialReference& reference) {
     return result;
 }
 
+/// Pixels and lines of a raster, or longitudes and latitudes.
+struct Places {
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<int> isFound;
+
+    void transform(void* transformer, bool toPixels) {
+        std::vector<double> z(x.size(), 0.0);
+        isFound.assign(x.size(), 0);
+        GDALGenImgProjTransform(transformer, toPixels ? TRUE : FALSE, static_cast<int>(x.size()), x.data(), y.data(),
+                                z.data(), isFound.data());
+        for (std::size_t i = 0; i < x.size(); ++i)
+            if (!std::isfinite(x[i]) || !std::isfinite(y[i])) isFound[i] = 0;
+    }
+};
+
+/// The longitudes and latitudes of a lattice of so many steps over a rectangle of pixels, which begins at (x, y).
+Places latticeOf(void* transformer, int steps, double width, double height, double x = 0.0, double y = 0.0) {
+    Places places;
+    for (int row = 0; row <= steps; ++row) {
+        for (int column = 0; column <= steps; ++column) {
+            places.x.push_back(x + width * column / steps);
+            places.y.push_back(y + height * row / steps);
+        }
+    }
+    places.transform(transformer, false);
+    return places;
+}
+
+/// Whether all longitudes of a pole are one place within a raster of so many pixels.
+bool holdsPole(void* transformer, double latitude, int width, int height) {
+    Places places{{-120.0, 0.0, 120.0}, {latitude, latitude, latitude}, {}};
+    places.transform(transformer, true);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool isWithin = places.isFound[i] != 0 && places.x[i] >= 0.0 && places.x[i] <= width &&
+                              places.y[i] >= 0.0 && places.y[i] <= height;
+        if (!isWithin || std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]) > 1.0) return false;
+    }
+    return true;
+}
+
+/// The area of a raster of so many pixels, from a lattice of places in it. West > east: none is found.
+RectDeg extentOf(void* transformer, int width, int height) {
+    constexpr int kSteps = 64;
+    constexpr double kLeastGap = 2.0 * 360.0 / kSteps;  // smaller ones may be between places
+    const Places places = latticeOf(transformer, kSteps, width, height);
+    RectDeg rect{180.0, 90.0, -180.0, -90.0};
+    std::vector<double> longitudes;
+    for (std::size_t i = 0; i < places.x.size(); ++i) {
+        if (places.isFound[i] == 0) continue;
+        longitudes.push_back(std::remainder(places.x[i], 360.0));
+        rect.south = std::min(rect.south, places.y[i]);
+        rect.north = std::max(rect.north, places.y[i]);
+    }
+    if (longitudes.empty()) return rect;
+    // The raster lies outside the widest gap.
+    std::sort(longitudes.begin(), longitudes.end());
+    rect.west = longitudes.front();
+    rect.east = longitudes.back();
+    double widest = rect.west + 360.0 - rect.east;
+    for (std::size_t i = 1; i < longitudes.size(); ++i) {
+        const double gap = longitudes[i] - longitudes[i - 1];
+        if (gap <= widest) continue;
+        widest = gap;
+        rect.west = longitudes[i];
+        rect.east = longitudes[i - 1] + 360.0;
+    }
+    const bool holdsNorth = holdsPole(transformer, 90.0, width, height);
+    const bool holdsSouth = holdsPole(transformer, -90.0, width, height);
+    if (holdsNorth) rect.north = 90.0;
+    if (holdsSouth) rect.south = -90.0;
+    if (holdsNorth || holdsSouth || widest < kLeastGap) return {-180.0, rect.south, 180.0, rect.north};
+    return rect;
+}
+
+/// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
+/// spacings are almost the same have the same number.
+double roundedSpacing(double circleDeg, double spacingDeg) {
+    const double posts = circleDeg / spacingDeg;
+    const double step = std::exp2(std::floor(std::log2(posts)) - 6.0);
+    return circleDeg / (std::ceil(posts / step) * step);
+}
+
 }  // namespace
 
 RasterFile::RasterFile(RasterOptions options) : _options(std::move(options)) {
@@ -219,10 +302,7 @@ void RasterFile::place() {
         _eastDeg = _transform[1];
         _northDeg = std::abs(_transform[5]);
     } else {
-        const WarpedPlace place = warpedPlaceOf(dataset(), _target, path());
-        _extent = place.extent;
-        _eastDeg = place.eastDeg;
-        _northDeg = place.northDeg;
+        placeWarped();
     }
     constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
     if (!(_eastDeg >= kFinestDeg && _northDeg >= kFinestDeg)) {
@@ -235,6 +315,44 @@ void RasterFile::place() {
     if (!(_extent.south < 90.0 && _extent.north > -90.0)) {
         throw Failure("no part of \"" + path() + "\" lies between latitudes -90 and 90; correct its georeferencing");
     }
+}
+
+void RasterFile::placeWarped() {
+    CPLStringList words;
+    words.SetNameValue("DST_SRS", wktOf(_target).c_str());
+    const std::unique_ptr<void, void (*)(void*)> transformer(
+        GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&dataset()), nullptr, words.List()),
+        GDALDestroyGenImgProjTransformer);
+    const auto failure = [&] {
+        return Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
+    };
+    if (!transformer) throw failure();
+    const int width = dataset().GetRasterXSize();
+    const int height = dataset().GetRasterYSize();
+    constexpr int kSteps = 8;
+    const auto places = [&](double x, double y) {
+        return latticeOf(transformer.get(), kSteps, width - 1.0, height - 1.0, x, y);
+    };
+    const Places at = places(0.0, 0.0), beside = places(1.0, 0.0), below = places(0.0, 1.0);
+    std::vector<double> eastDeg;
+    std::vector<double> northDeg;
+    for (std::size_t i = 0; i < at.x.size(); ++i) {
+        if (at.isFound[i] == 0 || beside.isFound[i] == 0 || below.isFound[i] == 0) continue;
+        const double lonX = std::remainder(beside.x[i] - at.x[i], 360.0);
+        const double lonY = std::remainder(below.x[i] - at.x[i], 360.0);
+        const double latX = beside.y[i] - at.y[i];
+        const double latY = below.y[i] - at.y[i];
+        const double area = std::abs(lonX * latY - lonY * latX);
+        const double east = area / std::hypot(latX, latY);
+        const double north = area / std::hypot(lonX, lonY);
+        if (east > 0.0 && std::isfinite(east)) eastDeg.push_back(east);
+        if (north > 0.0 && std::isfinite(north)) northDeg.push_back(north);
+    }
+    _extent = extentOf(transformer.get(), width, height);
+    if (_extent.west > _extent.east || eastDeg.empty() || northDeg.empty()) throw failure();
+    std::sort(northDeg.begin(), northDeg.end());
+    _eastDeg = roundedSpacing(360.0, *std::min_element(eastDeg.begin(), eastDeg.end()));
+    _northDeg = roundedSpacing(180.0, northDeg[northDeg.size() / 2]);
 }
 
 /// The number of the coarsest that is as fine as needed; -1 without one.

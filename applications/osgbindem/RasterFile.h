@@ -61,6 +61,7 @@ private:
     void open(int overview);
     void takeReference();
     void place();
+    void placeWarped();
     [[nodiscard]] bool isInDegreesOfGlobe() const;
     [[nodiscard]] int overview() const;
 

@@ -59,17 +59,6 @@ RectDeg RasterGrid::extent() const noexcept {
     return {west, std::min(a, b), west + _width * _dx, std::max(a, b)};
 }
 
-double RasterGrid::overlap(const RectDeg& rect) const noexcept {
-    const RectDeg own = extent();
-    const double height = std::min(own.north, rect.north) - std::max(own.south, rect.south);
-    double width = 0.0;
-    for (int turn = -2; turn <= 2; ++turn) {
-        const double shift = 360.0 * turn;
-        width += std::max(0.0, std::min(own.east + shift, rect.east) - std::max(own.west + shift, rect.west));
-    }
-    return width * std::max(0.0, height);
-}
-
 bool RasterGrid::covers(const RectDeg& rect) const noexcept {
     return overlap(rect) >= (1.0 - kSnap) * (rect.east - rect.west) * (rect.north - rect.south);
 }

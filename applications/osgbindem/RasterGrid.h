@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -22,6 +23,15 @@ struct RectDeg {
 
     /// The same rectangle with a border on all sides, cut at the poles.
     [[nodiscard]] RectDeg grownBy(double borderDeg) const noexcept;
+
+    /// The area in square degrees that the rectangles have in common, longitudes modulo 360.
+    [[nodiscard]] double overlap(const RectDeg& other) const noexcept {
+        const double height = std::min(north, other.north) - std::max(south, other.south);
+        double width = 0.0;
+        for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0})
+            width += std::max(0.0, std::min(east + turn, other.east) - std::max(west + turn, other.west));
+        return width * std::max(0.0, height);
+    }
 };
 
 /// A rectangle of pixels.
@@ -72,7 +82,7 @@ public:
     [[nodiscard]] RectDeg extent() const noexcept;
 
     /// The part of the rectangle's area that the raster covers, in square degrees.
-    [[nodiscard]] double overlap(const RectDeg& rect) const noexcept;
+    [[nodiscard]] double overlap(const RectDeg& rect) const noexcept { return extent().overlap(rect); }
 
     [[nodiscard]] bool covers(const RectDeg& rect) const noexcept;
 

@@ -17,7 +17,7 @@ constexpr std::size_t kMostKnown = 100000;
 
 }  // namespace
 
-bool EdgeDepths::hasChildren(const TileId& tile) {
+bool SkirtMeasure::hasChildren(const TileId& tile) {
     if (tile.level >= _layout.deepestLevel() || !_layout.isInRegion(tile)) return false;
     if (tile.level < _layout.startLevel()) return true;
     const auto known = _known.find(tile);
@@ -28,7 +28,7 @@ bool EdgeDepths::hasChildren(const TileId& tile) {
     return result;
 }
 
-int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {
+int SkirtMeasure::coarsestAcross(const TileId& tile, Edge edge) {
     const auto neighbour = tile.neighbour(edge);
     if (!neighbour) return tile.level;
     int level = _layout.startLevel();
@@ -139,7 +139,7 @@ SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, 
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
     compareWithFiner(own, skirt);
-    const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
+    const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
     // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor
@@ -154,7 +154,7 @@ SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, 
 void SkirtMeasure::addFiner(const Line& own, int level, std::int64_t place, Segments& segments) {
     const TileId tile = own.tileAt(level, place);
     const auto other = tile.neighbour(own.edge);
-    if (!_depths.hasChildren(tile) && !(other && _depths.hasChildren(*other))) return;
+    if (!hasChildren(tile) && !(other && hasChildren(*other))) return;
     const int shift = level + 1 - own.tile.level;
     const std::int64_t parts = std::int64_t{1} << shift;
     const std::int64_t posts = std::int64_t{2} * _layout.cells();

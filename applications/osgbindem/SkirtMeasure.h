@@ -16,24 +16,8 @@
 
 namespace osgbindem {
 
-/// Knows which tiles have children, and so how deep the tree is on either side of an edge.
+/// Knows which tiles have children, and measures how deep a tile's skirt has to be.
 /// A tile has children when a raster finer than its posts has data in it, and the tile is part of the region.
-class EdgeDepths final {
-public:
-    EdgeDepths(DemMosaic& mosaic, const TileLayout& layout) : _mosaic(mosaic), _layout(layout) {}
-
-    [[nodiscard]] bool hasChildren(const TileId& tile);
-
-    /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
-    [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
-
-private:
-    DemMosaic& _mosaic;
-    const TileLayout& _layout;
-    std::map<TileId, bool> _known;
-};
-
-/// Measures how deep a tile's skirt has to be.
 ///
 /// Where tiles of two levels meet, their edges are two polylines through the same terrain, and the crack between them
 /// is filled by the skirt of the one that is higher. Tiles of one level share their edge posts and need no skirt.
@@ -48,8 +32,12 @@ private:
 /// vertical wall closes; the skirt leans outward by as much.
 class SkirtMeasure final {
 public:
-    SkirtMeasure(DemMosaic& mosaic, const TileLayout& layout, EdgeDepths& depths)
-        : _mosaic(mosaic), _layout(layout), _depths(depths) {}
+    SkirtMeasure(DemMosaic& mosaic, const TileLayout& layout) : _mosaic(mosaic), _layout(layout) {}
+
+    [[nodiscard]] bool hasChildren(const TileId& tile);
+
+    /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
+    [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
 
     /// Gives the tile its skirts, rounded up to whole steps. Requires: it has its heights.
     void measure(SurveyedTile& tile);
@@ -81,7 +69,7 @@ private:
 
     DemMosaic& _mosaic;
     const TileLayout& _layout;
-    EdgeDepths& _depths;
+    std::map<TileId, bool> _known;
 };
 
 }  // namespace osgbindem

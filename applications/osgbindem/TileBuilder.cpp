@@ -50,11 +50,10 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _layout(layout),
       _files(files),
       _mosaic(settings, &layout),
-      _depths(_mosaic, layout),
-      _skirts(_mosaic, layout, _depths),
+      _skirts(_mosaic, layout),
       _images(settings),
       _triangles(osgAnalyticBin::trianglesOf(layout.cells())),
-      _shared(settings.packed ? 0 : layout.cells()) {}
+      _storedTriangles(settings.packed ? std::vector<std::uint16_t>() : _triangles) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
     if (_finished) {
@@ -62,7 +61,7 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
     }
     throwIfStopRequested();
     prefetch(tile);
-    if (!_depths.hasChildren(tile)) {
+    if (!_skirts.hasChildren(tile)) {
         SurveyedTile leaf = surveyAlone(tile);
         leaf.range = _mosaic.range(tile.rect());
         if (_leafDone) _leafDone(tile);
@@ -121,7 +120,7 @@ SurveyedTile TileBuilder::begun(const TileId& tile) const {
     return surveyed;
 }
 
-std::optional<DemMosaic::Found> TileBuilder::samplePost(SurveyedTile& tile, int column, int row) {
+std::optional<FoundHeight> TileBuilder::samplePost(SurveyedTile& tile, int column, int row) {
     TerrainGrid& grid = tile.grid;
     const auto found = _mosaic.find(_layout.position({tile.id.level, grid.firstColumn + column, grid.firstRow + row}));
     // Posts that tiles share are rounded alike.
@@ -148,6 +147,7 @@ void TileBuilder::finishSurvey(SurveyedTile& tile) {
 
 void TileBuilder::buildChildren(SurveyedTile& tile) {
     const osg::ref_ptr<osg::Group> file = new osg::Group;
+    SharedParts shared(_storedTriangles, _layout.cells());
     for (const TileId& childId : tile.id.children()) {
         BuiltTile child = build(childId);
         takePosts(tile, child.survey);
@@ -156,7 +156,7 @@ void TileBuilder::buildChildren(SurveyedTile& tile) {
         tile.below.expandBy(child.bin);
         tile.checksum += child.survey.checksum;
         file->addChild(child.node);
-        _shared.addTo(*child.geometry, child.survey.grid.textureSize);
+        shared.addTo(*child.geometry, child.survey.grid.textureSize);
     }
     const std::string bytes = nodeFileBytes(*file, _settings.compress);
     _files.writeChildren(tile.id, bytes);
@@ -238,7 +238,8 @@ void declareHorizon(osg::Group& root, const TileLayout& layout) {
 std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
                           const TileLayout& layout) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(settings);
-    SharedParts shared(settings.packed ? 0 : layout.cells());
+    const std::vector<std::uint16_t> triangles = osgAnalyticBin::trianglesOf(layout.cells());
+    SharedParts shared(settings.packed ? std::vector<std::uint16_t>() : triangles, layout.cells());
     for (const BuiltTile& tile : startTiles) {
         root->addChild(tile.node);
         shared.addTo(*tile.geometry, tile.survey.grid.textureSize);

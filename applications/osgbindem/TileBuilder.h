@@ -59,7 +59,7 @@ public:
     /// Surveys the tile and makes its mesh. Throws Failure, Interrupted.
     [[nodiscard]] BuiltTile build(const TileId& tile);
 
-    [[nodiscard]] EdgeDepths& depths() noexcept { return _depths; }
+    [[nodiscard]] SkirtMeasure& skirts() noexcept { return _skirts; }
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
 
 private:
@@ -67,7 +67,7 @@ private:
     [[nodiscard]] SurveyedTile begun(const TileId& tile) const;
     /// Takes a post from the rasters, in whole steps; columns and rows of the ring around the tile are -1 and cells
     /// + 1.
-    std::optional<DemMosaic::Found> samplePost(SurveyedTile& tile, int column, int row);
+    std::optional<FoundHeight> samplePost(SurveyedTile& tile, int column, int row);
     void buildChildren(SurveyedTile& tile);
     /// Adds the ring of posts around the tile, which the normals need, and the skirts.
     void finishSurvey(SurveyedTile& tile);
@@ -76,11 +76,11 @@ private:
     const TileLayout& _layout;
     const TileFiles& _files;
     DemMosaic _mosaic;
-    EdgeDepths _depths;
     SkirtMeasure _skirts;
     ImageMosaic _images;
     std::vector<std::uint16_t> _triangles;
-    SharedParts _shared;
+    /// Of the meshes that are stored; none where tiles are packed.
+    std::vector<std::uint16_t> _storedTriangles;
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;
 };

@@ -107,13 +107,7 @@ TileLayout::TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::
 }
 
 bool TileLayout::isInRegion(const TileId& tile) const noexcept {
-    if (!_region) return true;
-    const RectDeg rect = tile.rect();
-    if (rect.south >= _region->north || rect.north <= _region->south) return false;
-    for (const double turn : {-360.0, 0.0, 360.0, 720.0}) {
-        if (rect.west + turn < _region->east && rect.east + turn > _region->west) return true;
-    }
-    return false;
+    return !_region || tile.rect().overlap(*_region) > 0.0;
 }
 
 double TileLayout::spacingDeg(int level) const noexcept {

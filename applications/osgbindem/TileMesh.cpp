@@ -208,18 +208,13 @@ osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid
     return geometry;
 }
 
-SharedParts::SharedParts(int cells) : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)), _cells(cells) {
-    const std::vector<std::uint16_t> triangles = osgAnalyticBin::trianglesOf(cells);
-    _triangles->assign(triangles.begin(), triangles.end());
-}
-
 void SharedParts::addTo(osg::Geometry& geometry, int textureSize) {
     geometry.addPrimitiveSet(_triangles);
     if (textureSize == 0) return;
     osg::ref_ptr<osg::Vec2Array>& coordinates = _texCoords[textureSize];
     if (!coordinates) {
         coordinates = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
-        if (_cells > 0) osgAnalyticBin::addTextureCoordinates(_cells, textureSize, *coordinates);
+        if (!_triangles->empty()) osgAnalyticBin::addTextureCoordinates(_cells, textureSize, *coordinates);
     }
     geometry.setTexCoordArray(0, coordinates);
 }

@@ -31,8 +31,9 @@ void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize);
 /// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
 class SharedParts final {
 public:
-    /// `cells`: 0 for packed tiles, which are filled when they are read.
-    explicit SharedParts(int cells);
+    /// `triangles`: none for packed tiles, which are filled when they are read.
+    SharedParts(const std::vector<std::uint16_t>& triangles, int cells)
+        : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES, triangles.begin(), triangles.end())), _cells(cells) {}
 
     /// Completes the geometry. `textureSize`: 0 without a texture.
     void addTo(osg::Geometry& geometry, int textureSize);

@@ -86,41 +86,119 @@ double fade(double value, double from, double to) {
 }  // namespace
 
 /// A block with the posts around it, as far as what is in the block depends on them.
-struct VoidFill::Window {
+class VoidFill::Window final {
+public:
+    Window(const VoidFill& fill, const PixelWindow& block)
+        : _fill(fill),
+          _block(block),
+          _width(fill._layer.grid().columns()),
+          _turns(fill._layer.grid().isGlobal() ? 1 : 0) {
+        // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
+        const int most = _turns > 0 ? _width : 1;
+        const int rows = fill._layer.grid().rows();
+        const int west = std::max(block.column - kBorder, -most);
+        const int first = std::max(block.row - kBorder, -1);
+        _posts = {west, first, std::min(block.column + block.width + kBorder, _width + most) - west,
+                  std::min(block.row + block.height + kBorder, rows + 1) - first};
+        readHeights(rows);
+        findKinds();
+    }
+
+    [[nodiscard]] Block filled() {
+        const std::vector<GByte> isKnown = known();
+        if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
+        const std::vector<float> distances = distancesTo(isKnown, _posts.width, _posts.height);
+        sortVoids(distances);
+        bool hasNarrow = false;
+        bool hasWide = false;
+        forPosts(_block, [&](int, int, std::size_t i) {
+            hasNarrow = hasNarrow || _kinds[i] == Kind::Narrow;
+            hasWide = hasWide || (_kinds[i] == Kind::Wide && _fill._coarser);
+        });
+        const std::vector<float> narrow = hasNarrow ? interpolated() : std::vector<float>();
+        const std::vector<float> wide = hasWide ? differences() : std::vector<float>();
+        Block result;
+        forPosts(_block, [&](int x, int y, std::size_t i) {
+            const Kind kind = _kinds[i];
+            result.isRival.push_back(kind == Kind::Rival);
+            float& height = result.heights.emplace_back(kVoid);
+            if (kind == Kind::Rival) height = static_cast<float>(_heights[i]);
+            if (kind == Kind::Narrow) height = narrow[i];
+            if (kind != Kind::Wide || !_fill._coarser || distances[i] >= kReach) return;
+            const double coarser = coarserAt(x, y).metres;
+            const double onLand = fade(distances[i], 0.5 * kReach, kReach);
+            const double inSea = fade(distances[i], 0.0, kSeaReach);
+            const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));
+            height = static_cast<float>(coarser + share * wide[i]);
+        });
+        return result;
+    }
+
+private:
     enum class Kind : char { Data, Rival, Outside, Narrow, Wide };
 
-    /// Columns may be beyond the raster's by a turn of the globe.
-    PixelWindow posts;
-    PixelWindow block;
-    std::vector<double> heights;
-    /// Of each post. What is missing is beyond the raster's border, or in a void.
-    std::vector<Kind> kinds;
-
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(posts.width) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(_posts.width) + static_cast<std::size_t>(x);
     }
-    [[nodiscard]] bool isVoid(std::size_t i) const noexcept { return kinds[i] >= Kind::Narrow; }
+    [[nodiscard]] bool isVoid(std::size_t i) const noexcept { return _kinds[i] >= Kind::Narrow; }
 
     /// Calls `visit(x, y, index)` for each post of a rectangle that is within the window.
     template <typename Visit>
     void forPosts(const PixelWindow& rect, const Visit& visit) const {
-        for (int y = std::max(rect.row - posts.row, 0); y < std::min(rect.row + rect.height - posts.row, posts.height);
-             ++y)
-            for (int x = std::max(rect.column - posts.column, 0);
-                 x < std::min(rect.column + rect.width - posts.column, posts.width); ++x)
-                visit(x, y, index(x, y));
+        const int south = std::min(rect.row + rect.height - _posts.row, _posts.height);
+        const int east = std::min(rect.column + rect.width - _posts.column, _posts.width);
+        for (int y = std::max(rect.row - _posts.row, 0); y < south; ++y)
+            for (int x = std::max(rect.column - _posts.column, 0); x < east; ++x) visit(x, y, index(x, y));
     }
     template <typename Visit>
     [[nodiscard]] bool hasNear(int x, int y, const Visit& is) const {
         bool result = false;
-        forPosts({posts.column + x - 1, posts.row + y - 1, 3, 3},
+        forPosts({_posts.column + x - 1, _posts.row + y - 1, 3, 3},
                  [&](int u, int v, std::size_t i) { result = is(u, v, i) || result; });
         return result;
     }
+    [[nodiscard]] FoundHeight coarserAt(int x, int y) const {
+        const int column = _posts.column + x;
+        return _fill._coarser(_turns > 0 ? (column + _width) % _width : column, _posts.row + y);
+    }
+
+    void readHeights(int rows) {
+        _heights.assign(static_cast<std::size_t>(_posts.width) * static_cast<std::size_t>(_posts.height),
+                        std::numeric_limits<double>::quiet_NaN());
+        std::vector<double> part;
+        for (int turn = -_turns; turn <= _turns; ++turn) {
+            const int from = std::max(_posts.column, turn * _width);
+            const int to = std::min(_posts.column + _posts.width, (turn + 1) * _width);
+            if (to <= from) continue;
+            const int first = std::max(_posts.row, 0);
+            const PixelWindow inside{from, first, to - from, std::min(_posts.row + _posts.height, rows) - first};
+            _fill._read({from - turn * _width, first, inside.width, inside.height}, part);
+            auto next = part.begin();
+            forPosts(inside, [&](int, int, std::size_t i) { _heights[i] = *next++; });
+        }
+    }
+
+    void findKinds() {
+        _kinds.resize(_heights.size());
+        std::transform(_heights.begin(), _heights.end(), _kinds.begin(),
+                       [](double height) { return std::isnan(height) ? Kind::Outside : Kind::Data; });
+        for (const RasterLayer::Member& member : _fill._layer.members()) {
+            for (int turn = -_turns; turn <= _turns; ++turn) {
+                PixelWindow part = member.window;
+                part.column += turn * _width;
+                forPosts(part, [&](int x, int y, std::size_t i) {
+                    if (_kinds[i] != Kind::Outside) return;
+                    const FoundHeight coarser = _fill._hasRivals ? coarserAt(x, y) : FoundHeight();
+                    _kinds[i] = coarser.isRival ? Kind::Rival : Kind::Narrow;
+                    if (coarser.isRival) _heights[i] = coarser.metres;
+                });
+            }
+        }
+    }
 
     [[nodiscard]] std::vector<GByte> known() const {
-        std::vector<GByte> isKnown(kinds.size());
-        std::transform(kinds.begin(), kinds.end(), isKnown.begin(),
+        std::vector<GByte> isKnown(_kinds.size());
+        std::transform(_kinds.begin(), _kinds.end(), isKnown.begin(),
                        [](Kind kind) { return static_cast<GByte>(kind <= Kind::Rival ? 255 : 0); });
         return isKnown;
     }
@@ -128,13 +206,12 @@ struct VoidFill::Window {
     /// Tells narrow voids from wide ones. Those along the raster's border are wide.
     /// `distances`: posts to the nearest one with data.
     void sortVoids(const std::vector<float>& distances) {
-        std::vector<bool> isSeen(kinds.size(), false);
-        forPosts(posts, [&](int x, int y, std::size_t i) {
+        std::vector<bool> isSeen(_kinds.size(), false);
+        forPosts(_posts, [&](int x, int y, std::size_t i) {
             if (isVoid(i) && !isSeen[i]) sortVoid(x, y, isSeen, distances);
         });
     }
 
-private:
     void sortVoid(int startX, int startY, std::vector<bool>& isSeen, const std::vector<float>& distances) {
         constexpr std::size_t kMostAtBorder = 4;  // one post of so many
         std::vector<std::pair<int, int>> found{{startX, startY}};
@@ -149,21 +226,62 @@ private:
                     isSeen[i] = true;
                     found.emplace_back(u, v);
                 }
-                return kinds[i] == Kind::Outside;
+                return _kinds[i] == Kind::Outside;
             });
             if (isAtBorder) ++atBorder;
         }
         if (isNarrow && kMostAtBorder * atBorder <= found.size()) return;
-        for (const auto& [x, y] : found) kinds[index(x, y)] = Kind::Wide;
+        for (const auto& [x, y] : found) _kinds[index(x, y)] = Kind::Wide;
     }
+
+    /// The heights with narrow voids interpolated.
+    [[nodiscard]] std::vector<float> interpolated() const {
+        std::vector<float> values(_heights.begin(), _heights.end());
+        std::vector<GByte> isKnown(values.size(), 255);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            // Wide voids touch no narrow one, so what they hold is of no account.
+            if (std::isnan(values[i])) values[i] = 0.0F;
+            if (_kinds[i] == Kind::Narrow || _kinds[i] == Kind::Outside) isKnown[i] = 0;
+        }
+        interpolate(_posts.width, _posts.height, values, isKnown, kNarrow);
+        return values;
+    }
+
+    /// Those of the heights from what coarser rasters have, interpolated from the rims of wide voids.
+    [[nodiscard]] std::vector<float> differences() const {
+        std::vector<float> result(_heights.size(), 0.0F);
+        std::vector<GByte> isKnown = known();
+        const auto isMissing = [&](int, int, std::size_t i) { return std::isnan(_heights[i]); };
+        forPosts(_posts, [&](int x, int y, std::size_t i) {
+            if (_kinds[i] == Kind::Outside) isKnown[i] = 255;
+            if (isMissing(x, y, i) || !hasNear(x, y, isMissing)) return;
+            // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
+            const double difference = _heights[i] - coarserAt(x, y).metres;
+            isKnown[i] = std::isnan(difference) ? 0 : 255;
+            if (isKnown[i] != 0) result[i] = static_cast<float>(difference);
+        });
+        interpolate(_posts.width, _posts.height, result, isKnown, kReach);
+        return result;
+    }
+
+    const VoidFill& _fill;
+    PixelWindow _block;
+    int _width;
+    /// Round the globe, to either side.
+    int _turns;
+    /// Columns may be beyond the raster's by a turn of the globe.
+    PixelWindow _posts;
+    std::vector<double> _heights;
+    /// Of each post. What is missing is beyond the raster's border, or in a void.
+    std::vector<Kind> _kinds;
 };
 
-VoidFill::Below VoidFill::at(int column, int row) {
-    const int blocksPerRow = (_width + kVoidBlock - 1) / kVoidBlock;
-    const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
-                            std::min(kVoidBlock, _width - column / kVoidBlock * kVoidBlock),
-                            std::min(kVoidBlock, _height - row / kVoidBlock * kVoidBlock)};
-    const int number = row / kVoidBlock * blocksPerRow + column / kVoidBlock;
+FoundHeight VoidFill::at(int column, int row) {
+    const int width = _layer.grid().columns();
+    PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock, kVoidBlock, kVoidBlock};
+    block.width = std::min(kVoidBlock, width - block.column);
+    block.height = std::min(kVoidBlock, _layer.grid().rows() - block.row);
+    const int number = row / kVoidBlock * ((width + kVoidBlock - 1) / kVoidBlock) + column / kVoidBlock;
     auto found = _blocks.find(number);
     if (found == _blocks.end()) {
         throwIfStopRequested();
@@ -172,124 +290,13 @@ VoidFill::Below VoidFill::at(int column, int row) {
                 it = it->second.heights.empty() ? std::next(it) : _blocks.erase(it);
             _held = 0;
         }
-        found = _blocks.emplace(number, filled(block)).first;
+        found = _blocks.emplace(number, Window(*this, block).filled()).first;
         if (!found->second.heights.empty()) ++_held;
     }
     if (found->second.heights.empty()) return {};
     const auto post = static_cast<std::size_t>((row - block.row) * block.width + column - block.column);
-    return {found->second.heights[post], found->second.isRival[post]};
-}
-
-void VoidFill::read(Window& window) const {
-    const PixelWindow& block = window.block;
-    // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
-    const int most = isGlobal() ? _width : 1;
-    const int west = std::max(block.column - kBorder, -most);
-    const int east = std::min(block.column + block.width + kBorder, _width + most);
-    const int first = std::max(block.row - kBorder, -1);
-    const int last = std::min(block.row + block.height + kBorder, _height + 1);
-    window.posts = {west, first, east - west, last - first};
-    window.heights.assign(static_cast<std::size_t>(window.posts.width) * static_cast<std::size_t>(window.posts.height),
-                          std::numeric_limits<double>::quiet_NaN());
-    std::vector<double> part;
-    const int turns = isGlobal() ? 1 : 0;
-    for (int turn = -turns; turn <= turns; ++turn) {
-        const int from = std::max(west, turn * _width);
-        const int to = std::min(east, (turn + 1) * _width);
-        if (to <= from) continue;
-        const int firstInside = std::max(first, 0);
-        const PixelWindow inside{from, firstInside, to - from, std::min(last, _height) - firstInside};
-        _read({from - turn * _width, firstInside, inside.width, inside.height}, part);
-        auto next = part.begin();
-        window.forPosts(inside, [&](int, int, std::size_t i) { window.heights[i] = *next++; });
-    }
-}
-
-void VoidFill::findKinds(Window& window) const {
-    using Kind = Window::Kind;
-    window.kinds.resize(window.heights.size());
-    std::transform(window.heights.begin(), window.heights.end(), window.kinds.begin(),
-                   [](double height) { return std::isnan(height) ? Kind::Outside : Kind::Data; });
-    const int turns = isGlobal() ? 1 : 0;
-    for (const RasterLayer::Member& member : _layer.members()) {
-        for (int turn = -turns; turn <= turns; ++turn) {
-            PixelWindow part = member.window;
-            part.column += turn * _width;
-            window.forPosts(part, [&](int x, int y, std::size_t i) {
-                if (window.kinds[i] != Kind::Outside) return;
-                const Below below = _hasRivals ? belowAt(window, x, y) : Below();
-                window.kinds[i] = below.isRival ? Kind::Rival : Kind::Narrow;
-                if (below.isRival) window.heights[i] = below.height;
-            });
-        }
-    }
-}
-
-VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
-    using Kind = Window::Kind;
-    Window window;
-    window.block = block;
-    read(window);
-    findKinds(window);
-    const std::vector<GByte> isKnown = window.known();
-    if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
-    const std::vector<float> distances = distancesTo(isKnown, window.posts.width, window.posts.height);
-    window.sortVoids(distances);
-    bool hasNarrow = false;
-    bool hasWide = false;
-    window.forPosts(block, [&](int, int, std::size_t i) {
-        hasNarrow = hasNarrow || window.kinds[i] == Kind::Narrow;
-        hasWide = hasWide || window.kinds[i] == Kind::Wide;
-    });
-    const std::vector<float> narrow = hasNarrow ? interpolated(window) : std::vector<float>();
-    const std::vector<float> differences = hasWide && _coarser ? differencesOf(window) : std::vector<float>();
-    Block result;
-    window.forPosts(block, [&](int x, int y, std::size_t i) {
-        const Kind kind = window.kinds[i];
-        result.isRival.push_back(kind == Kind::Rival);
-        float& height = result.heights.emplace_back(kVoid);
-        if (kind == Kind::Rival) height = static_cast<float>(window.heights[i]);
-        if (kind == Kind::Narrow) height = narrow[i];
-        if (kind != Kind::Wide || !_coarser || distances[i] >= kReach) return;
-        const double coarser = belowAt(window, x, y).height;
-        const double onLand = fade(distances[i], 0.5 * kReach, kReach);
-        const double inSea = fade(distances[i], 0.0, kSeaReach);
-        const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));
-        height = static_cast<float>(coarser + share * differences[i]);
-    });
-    return result;
-}
-
-std::vector<float> VoidFill::interpolated(const Window& window) {
-    std::vector<float> values(window.heights.begin(), window.heights.end());
-    std::vector<GByte> isKnown(values.size(), 255);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        // Wide voids touch no narrow one, so what they hold is of no account.
-        if (std::isnan(values[i])) values[i] = 0.0F;
-        if (window.kinds[i] == Window::Kind::Narrow || window.kinds[i] == Window::Kind::Outside) isKnown[i] = 0;
-    }
-    interpolate(window.posts.width, window.posts.height, values, isKnown, kNarrow);
-    return values;
-}
-
-VoidFill::Below VoidFill::belowAt(const Window& window, int x, int y) const {
-    return _coarser(inRaster(window.posts.column + x), window.posts.row + y);
-}
-
-std::vector<float> VoidFill::differencesOf(const Window& window) const {
-    std::vector<float> differences(window.heights.size(), 0.0F);
-    std::vector<GByte> isKnown = window.known();
-    const auto isMissing = [&](int, int, std::size_t i) { return std::isnan(window.heights[i]); };
-    window.forPosts(window.posts, [&](int x, int y, std::size_t i) {
-        if (window.kinds[i] == Window::Kind::Outside) isKnown[i] = 255;
-        if (isMissing(x, y, i) || !window.hasNear(x, y, isMissing)) return;
-        // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
-        const double difference = window.heights[i] - belowAt(window, x, y).height;
-        isKnown[i] = std::isnan(difference) ? 0 : 255;
-        if (isKnown[i] != 0) differences[i] = static_cast<float>(difference);
-    });
-    interpolate(window.posts.width, window.posts.height, differences, isKnown, kReach);
-    return differences;
+    const bool isRival = found->second.isRival[post];
+    return {found->second.heights[post], !isRival, isRival};
 }
 
 }  // namespace osgbindem

@@ -13,6 +13,18 @@
 
 namespace osgbindem {
 
+/// A height at a place.
+struct FoundHeight {
+    /// NaN where there is none.
+    double metres = std::numeric_limits<double>::quiet_NaN();
+    /// No data: what stands in a void.
+    bool isFilled = false;
+    /// Data of another raster that is nearly as fine.
+    bool isRival = false;
+    /// The layer that has it.
+    std::size_t source = 0;
+};
+
 /// Fills the voids of one raster: posts without data that stand near posts with data.
 ///
 /// Narrow voids are interpolated from the heights at their rim. In wider ones the difference between the raster and the
@@ -28,13 +40,7 @@ public:
     /// Heights of a window of posts within the raster, row by row; NaN where they are missing.
     using Read = std::function<void(const PixelWindow& window, std::vector<double>& heights)>;
     /// What the coarser rasters have at a post.
-    struct Below {
-        /// NaN where they have none.
-        double height = std::numeric_limits<double>::quiet_NaN();
-        /// Data of a raster nearly as fine.
-        bool isRival = false;
-    };
-    using Coarser = std::function<Below(int column, int row)>;
+    using Coarser = std::function<FoundHeight(int column, int row)>;
 
     /// Posts from the rim within which posts are filled.
     static constexpr int kReach = 128;
@@ -45,8 +51,7 @@ public:
 
     /// What is in none of the layer's rasters is beyond the border; those round the globe have none in the west and
     /// east. Without coarser rasters only narrow voids are filled.
-    VoidFill(const RasterLayer& layer, Read read)
-        : _layer(layer), _width(layer.grid().columns()), _height(layer.grid().rows()), _read(std::move(read)) {}
+    VoidFill(const RasterLayer& layer, Read read) : _layer(layer), _read(std::move(read)) {}
 
     /// Before the first void is filled. `hasRivals`: whether some of them are nearly as fine.
     void setCoarser(Coarser coarser, bool hasRivals) {
@@ -54,32 +59,18 @@ public:
         _hasRivals = hasRivals;
     }
 
-    /// Requires: the raster has no data at the post. Returns: metres, NaN where it stays missing, and whether they are
-    /// a rival's. Throws Failure.
-    [[nodiscard]] Below at(int column, int row);
+    /// Requires: the raster has no data at the post. Throws Failure.
+    [[nodiscard]] FoundHeight at(int column, int row);
 
 private:
-    struct Window;
+    class Window;
     /// Of each post of a block; empty ones have nothing to fill.
     struct Block {
         std::vector<float> heights;
         std::vector<bool> isRival;
     };
 
-    [[nodiscard]] Block filled(const PixelWindow& block) const;
-    void read(Window& window) const;
-    void findKinds(Window& window) const;
-    /// The heights of a window with its narrow voids interpolated, and its differences from what coarser rasters have.
-    [[nodiscard]] static std::vector<float> interpolated(const Window& window);
-    [[nodiscard]] std::vector<float> differencesOf(const Window& window) const;
-    /// The column of a raster round the globe that stands for one beyond its ends.
-    [[nodiscard]] int inRaster(int column) const { return isGlobal() ? ((column % _width) + _width) % _width : column; }
-    [[nodiscard]] bool isGlobal() const { return _layer.grid().isGlobal(); }
-    [[nodiscard]] Below belowAt(const Window& window, int x, int y) const;
-
     const RasterLayer& _layer;
-    int _width;
-    int _height;
     Read _read;
     Coarser _coarser;
     bool _hasRivals = false;
