@@ -36,14 +36,8 @@ public:
     [[nodiscard]] double at(const PositionDeg& position) const;
 
 private:
-    struct Destroy {
-        void operator()(OGRCoordinateTransformation* transformation) const {
-            OGRCoordinateTransformation::DestroyCT(transformation);
-        }
-    };
-
     std::string _what;
-    std::unique_ptr<OGRCoordinateTransformation, Destroy> _transformation;
+    std::unique_ptr<OGRCoordinateTransformation> _transformation;
 };
 
 /// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below

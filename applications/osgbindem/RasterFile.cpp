@@ -210,6 +210,13 @@ RectDeg extentOf(void* transformer, int width, int height) {
         rect.west = longitudes[i];
         rect.east = longitudes[i - 1] + 360.0;
     }
+    // The turn is that of the place in the middle.
+    const std::size_t middle = places.x.size() / 2;
+    if (places.isFound[middle] != 0) {
+        const double turns = std::round((places.x[middle] - 0.5 * (rect.west + rect.east)) / 360.0);
+        rect.west += 360.0 * turns;
+        rect.east += 360.0 * turns;
+    }
     const bool holdsNorth = holdsPole(transformer, 90.0, width, height);
     const bool holdsSouth = holdsPole(transformer, -90.0, width, height);
     if (holdsNorth) rect.north = 90.0;

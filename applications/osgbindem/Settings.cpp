@@ -48,15 +48,6 @@ constexpr const char* kExamples =
     "that all of them see.\n"
     "Exit codes: 0 the database is complete, 1 an error, 2 a wrong command line, 130 interrupted.";
 
-/// The command line as it was typed.
-struct Arguments {
-    std::vector<std::string> dems;
-    std::vector<std::string> scales;
-    std::vector<double> radii;
-    std::vector<double> region;
-    Settings settings;
-};
-
 /// Returns: nullopt for what is no unit.
 std::optional<double> metresPerUnit(const std::string& word) {
     constexpr double kMetresPerFoot = 0.3048;
@@ -68,11 +59,11 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
-void takeDems(Arguments& arguments) {
-    std::vector<std::string>& rasters = arguments.dems;
+/// `rasters`, `units`: words of the command line, as they were typed.
+std::vector<DemInput> demsOf(std::vector<std::string> rasters, const std::vector<std::string>& units) {
     std::vector<double> scales;
     bool isRaster = false;
-    for (const std::string& word : arguments.scales) {
+    for (const std::string& word : units) {
         // Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
         const auto scale = isRaster ? std::nullopt : metresPerUnit(word);
         isRaster = !scale;
@@ -89,33 +80,25 @@ void takeDems(Arguments& arguments) {
         throw UsageError(std::to_string(scales.size()) + " units in --height-unit for " +
                          std::to_string(rasters.size()) + " rasters; give one for all or one for each");
     }
+    std::vector<DemInput> dems;
     for (std::size_t i = 0; i < rasters.size(); ++i) {
-        std::optional<double> scale;
-        if (!scales.empty()) scale = scales[scales.size() == 1 ? 0 : i];
-        arguments.settings.dems.push_back({rasters[i], scale});
+        dems.push_back({rasters[i]});
+        if (!scales.empty()) dems.back().metresPerUnit = scales[scales.size() == 1 ? 0 : i];
     }
+    return dems;
 }
 
-void takeRadii(Arguments& arguments) {
+void setRadii(Settings& settings, double a, double b) {
+    if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a)) {
+        throw UsageError("radii " + std::to_string(a) + " and " + std::to_string(b) +
+                         " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
+    }
     const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
-    double a = wgs84->getRadiusEquator();
-    double b = wgs84->getRadiusPolar();
-    if (!arguments.radii.empty()) {
-        a = arguments.radii[0];
-        b = arguments.radii[1];
-        if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a)) {
-            throw UsageError("radii " + std::to_string(a) + " and " + std::to_string(b) +
-                             " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
-        }
-    }
-    arguments.settings.areRadiiGiven = !arguments.radii.empty();
-    arguments.settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
-    arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
+    settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
+    settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
 }
 
-void takeRegion(Arguments& arguments) {
-    const std::vector<double>& edges = arguments.region;
-    if (edges.empty()) return;
+RectDeg regionOf(const std::vector<double>& edges) {
     const RectDeg region{edges[0], edges[1], edges[2], edges[3]};
     if (!(region.west >= -360.0 && region.west <= 360.0 && region.east > region.west &&
           region.east - region.west <= 360.0 && region.south >= -90.0 && region.north <= 90.0 &&
@@ -124,7 +107,7 @@ void takeRegion(Arguments& arguments) {
             "-te is no part of the earth; give degrees as WEST SOUTH EAST NORTH, east more than west by at most 360 "
             "(179 -20 182 -15 passes the date line)");
     }
-    arguments.settings.region = region;
+    return region;
 }
 
 void requireFiles(const Settings& settings) {
@@ -140,24 +123,23 @@ std::string evenness(const std::string& word) {
     return std::atoi(word.c_str()) % 2 == 0 ? std::string() : word + " is not even";
 }
 
-void declare(CLI::App& app, Arguments& arguments) {
-    Settings& settings = arguments.settings;
+void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<std::string>& units) {
     settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     app.footer(kExamples);
     app.add_option(
-        "DEM", arguments.dems,
+        "DEM", dems,
         "elevation rasters that GDAL reads, in any reference system;\nwithout one, longitude and latitude in "
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
-    app.add_option("--height-unit", arguments.scales,
+    app.add_option("--height-unit", units,
                    "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default: the "
                    "unit in the raster, else m)")
         ->delimiter(',');
     app.add_option("-b,--band", settings.band, "band of the elevation rasters with the heights (default: the first)")
         ->check(CLI::Range(1, 65535));
     app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");
-    app.add_option(
-           "--te", arguments.region,
+    app.add_option_function<std::vector<double>>(
+           "--te", [&settings](const std::vector<double>& edges) { settings.region = regionOf(edges); },
            "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
         ->expected(4);
     app.add_option(
@@ -176,9 +158,14 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "image that GDAL reads, draped over the terrain; may be given several times: the finest\nthat has a "
                    "pixel counts, and the colours of the relief where none has")
         ->allow_extra_args(false);
-    app.add_option("--radii", arguments.radii,
-                   "equatorial and polar radius in metres\n(default: those of the first raster where it is of another "
-                   "body than the earth, else WGS 84)")
+    app.add_option_function<std::vector<double>>(
+           "--radii",
+           [&settings](const std::vector<double>& radii) {
+               setRadii(settings, radii[0], radii[1]);
+               settings.areRadiiGiven = true;
+           },
+           "equatorial and polar radius in metres\n(default: those of the first raster where it is of another "
+           "body than the earth, else WGS 84)")
         ->expected(2);
     app.add_option("--cells", settings.cells, "cells along the edge of a tile, even\n(default: from the rasters)")
         ->check(CLI::Range(4, 240))
@@ -221,21 +208,23 @@ void declare(CLI::App& app, Arguments& arguments) {
 }  // namespace
 
 std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
-    Arguments arguments;
+    Settings settings;
+    const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
+    setRadii(settings, wgs84->getRadiusEquator(), wgs84->getRadiusPolar());
+    std::vector<std::string> dems;
+    std::vector<std::string> units;
     CLI::App app{kDescription, "osgbindem"};
     app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
-    declare(app, arguments);
+    declare(app, settings, dems, units);
     std::vector<const char*> words(argv, argv + argc);
     // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
     std::replace_if(
         words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
     if (!osgAnalyticBin::support::parseCommandLine(app, argc, words.data())) return std::nullopt;
-    arguments.settings.areThreadsGiven = app.count("--threads") > 0;
-    takeDems(arguments);
-    takeRadii(arguments);
-    takeRegion(arguments);
-    requireFiles(arguments.settings);
-    return arguments.settings;
+    settings.areThreadsGiven = app.count("--threads") > 0;
+    settings.dems = demsOf(dems, units);
+    requireFiles(settings);
+    return settings;
 }
 
 Settings withDeclaredRadii(Settings settings) {
