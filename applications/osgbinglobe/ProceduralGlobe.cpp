@@ -9,6 +9,7 @@
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
 #include <osg/Material>
 
 #include <Relief.h>
@@ -157,11 +158,11 @@ TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
     return grid;
 }
 
-osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osgbindem::SharedParts& shared) const {
+osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osg::PrimitiveSet& triangles) const {
     const TerrainGrid grid = gridOf(tile);
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     fillGeometry(grid, *geometry);
-    shared.addTo(*geometry, 0);
+    geometry->addPrimitiveSet(&triangles);
     const osg::ref_ptr<osg::Node> placed = osgbindem::makePlaced(*geometry, grid.origin);
     const core::Interval own = rangeOf(grid);
     const double surfaceLow = meshBox(tile, tile.level, own).altitude().lower + skirtDepth(tile.level);
@@ -173,19 +174,21 @@ osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osgbindem:
 }
 
 osg::ref_ptr<osg::Node> ProceduralGlobe::children(const TileId& tile) const {
-    osgbindem::SharedParts shared(_triangles, _layout.cells());
+    const osg::ref_ptr<osg::PrimitiveSet> triangles =
+        new osg::DrawElementsUShort(GL_TRIANGLES, _triangles.begin(), _triangles.end());
     const osg::ref_ptr<osg::Group> group = new osg::Group;
-    for (const TileId& child : tile.children()) group->addChild(tileNode(child, shared));
+    for (const TileId& child : tile.children()) group->addChild(tileNode(child, *triangles));
     return group;
 }
 
 osg::ref_ptr<osg::Node> ProceduralGlobe::root() const {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = emptyRoot();
-    osgbindem::SharedParts shared(_triangles, _layout.cells());
+    const osg::ref_ptr<osg::PrimitiveSet> triangles =
+        new osg::DrawElementsUShort(GL_TRIANGLES, _triangles.begin(), _triangles.end());
     double lowest = 0.0;
     for (int y = 0; y < TileId::kStartRows; ++y) {
         for (int x = 0; x < TileId::kStartColumns; ++x) {
-            root->addChild(tileNode({0, x, y}, shared));
+            root->addChild(tileNode({0, x, y}, *triangles));
             const AnalyticBin bin = binOf({0, x, y});
             lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
         }

@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <osg/Node>
+#include <osg/PrimitiveSet>
 
 #include <TileLayout.h>
 #include <TileNode.h>
@@ -54,7 +55,7 @@ private:
     [[nodiscard]] AnalyticBin binOf(const osgbindem::TileId& tile, const core::Interval& own) const;
     [[nodiscard]] core::GeodeticBin meshBox(const osgbindem::TileId& tile, int level,
                                             const core::Interval& heights) const;
-    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const osgbindem::TileId& tile, osgbindem::SharedParts& shared) const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const osgbindem::TileId& tile, osg::PrimitiveSet& triangles) const;
 
     GlobeOptions _options;
     osgbindem::TileLayout _layout;
