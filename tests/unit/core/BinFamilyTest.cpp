@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <support/Numbers.h>
 #include <support/RandomBins.h>
@@ -138,51 +137,31 @@ TEST(BinFamily, GivesTheVerdictsOfItsBins) {
 
 #ifdef OSGANALYTICBIN_SIMD
 
-TEST(BinFamily, GivesTheVerdictsOfItsBinsOnEveryTarget) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        core::kernels::chooseKernels();
-        expectAllVerdictsOfItsBins(131, 20000);
-        if (testing::Test::HasFatalFailure()) break;
-        std::printf("%s: the same\n", hwy::TargetName(target));
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    core::kernels::chooseKernels();
-}
-
-// The bins' own verdicts come from the same instruction set above. Here those of the scalar form are the measure.
+// As single bins do: PlaneKernels.EveryTargetAgreesWithTheScalarForm.
 TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
-    struct Result {
-        FamilyVerdict verdict{};
-        std::uint64_t hidden = 0;
-    };
-    std::vector<Result> expected;
-    const auto resultOf = [](const FamilyCase& c) {
-        Result result;
-        c.family.classify(c.planes, c.undecided, result.verdict);
-        if (c.eye) result.hidden = c.family.hiddenFrom(*c.eye, c.candidates);
-        return result;
-    };
-    constexpr std::size_t kTrials = 20000;
-    {
-        core::kernels::activeKernels = core::kernels::kScalarKernels;
-        Random random(132);
-        for (std::size_t trial = 0; trial < kTrials; ++trial) expected.push_back(resultOf(FamilyCase(random)));
-    }
+    std::vector<std::pair<std::int64_t, core::kernels::PlaneKernels>> targets;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         core::kernels::chooseKernels();
-        Random random(132);
-        for (std::size_t trial = 0; trial < kTrials; ++trial) {
-            const FamilyCase c(random);
-            const Result result = resultOf(c);
-            ASSERT_EQ(result.verdict.outside, expected[trial].verdict.outside) << hwy::TargetName(target);
-            ASSERT_EQ(result.verdict.insideAll, expected[trial].verdict.insideAll) << hwy::TargetName(target);
-            ASSERT_EQ(result.hidden, expected[trial].hidden) << hwy::TargetName(target);
-            for (std::size_t i = 0; i < c.slots.size(); ++i) {
-                ASSERT_EQ(result.verdict.undecided[i], expected[trial].verdict.undecided[i]) << hwy::TargetName(target);
-            }
+        targets.emplace_back(target, core::kernels::activeKernels);
+    }
+    Random random(132);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const FamilyCase c(random);
+        FamilyVerdict expected{};
+        const auto hiddenBy = [&](const core::kernels::PlaneKernels& kernels, FamilyVerdict& result) {
+            core::kernels::activeKernels = kernels;
+            c.family.classify(c.planes, c.undecided, result);
+            return c.eye ? c.family.hiddenFrom(*c.eye, c.candidates) : 0;
+        };
+        const std::uint64_t hidden = hiddenBy(core::kernels::kScalarKernels, expected);
+        for (const auto& [target, kernels] : targets) {
+            FamilyVerdict verdict{};
+            ASSERT_EQ(hiddenBy(kernels, verdict), hidden) << hwy::TargetName(target);
+            ASSERT_EQ(verdict.outside, expected.outside) << hwy::TargetName(target);
+            ASSERT_EQ(verdict.insideAll, expected.insideAll) << hwy::TargetName(target);
+            for (std::size_t i = 0; i < c.slots.size(); ++i)
+                ASSERT_EQ(verdict.undecided[i], expected.undecided[i]) << hwy::TargetName(target);
         }
     }
     hwy::SetSupportedTargetsForTest(0);
