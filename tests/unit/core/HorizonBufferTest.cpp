@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Terrain that hides terrain. Oracles: triangles between corners, rays in long double. That no ray reaches what is
-// hidden behind random terrain, also from the eyes of a box: OcclusionSoundness.cpp.
+// Terrain that hides terrain. Oracle: rays through all triangles, in long double.
 
 #include "OcclusionScene.h"
 
@@ -42,6 +41,85 @@ BinHull ball(const glm::dvec3& centre, double reach) {
     for (std::size_t i = 0; i < 8; ++i) body.setCorner(i, centre);
     body.reach = reach;
     return body;
+}
+
+// Returns: how many quarters of tiles are hidden.
+int hideNothingThatARayReaches(Random& random, int scenes, bool isMap) {
+    int hidden = 0;
+    for (int i = 0; i < scenes; ++i) {
+        const OcclusionScene scene(random, true, isMap);
+        HorizonBuffer buffer = bufferOf(scene);
+        const std::size_t cells = random.pick(std::array<std::size_t, 3>{2, 4, 8});
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays; ++ray) {
+                const RealVector point = scene.pointIn(random, part);
+                EXPECT_TRUE(!isBeforeTheCamera(scene, point) || scene.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    return hidden;
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReaches) {
+    Random random(1700);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, false), 150);
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReachesInAMap) {
+    Random random(1718);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, true), 60);
+}
+
+// A view serves eyes around its own: an eye that is elsewhere is the same as points that are.
+TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnEyeWithinTheErrors) {
+    Random random(1711);
+    int hidden = 0;
+    for (int i = 0; i < 30; ++i) {
+        const OcclusionScene scene(random);
+        const double highest = scene.ellipsoid.toGeodetic(scene.eye).altitude;
+        const double reach = random.logUniform(1e-3, 0.3) * std::abs(highest - scene.tiles[0].bin.altitude().lower);
+        HorizonBuffer buffer = bufferOf(scene);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8, reach);
+        OcclusionScene moved = scene;
+        for (const auto& [part, outline] : frontToBack(scene, buffer, reach)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays / 4; ++ray) {
+                moved.eye = scene.eye + reach * random.direction();
+                // an eye below the ground looks through the backs of faces
+                if (moved.isBlocked(real(moved.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up))) continue;
+                const RealVector point = scene.pointIn(random, part);
+                ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 30);
+}
+
+// The same where the eye may be farther away along one axis than along another: a camera that flies ahead.
+TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
+    Random random(1713);
+    int hidden = 0;
+    for (int i = 0; i < 60; ++i) {
+        const OcclusionScene scene(random);
+        const glm::dvec3 eyes = randomEyes(random, scene);
+        HorizonBuffer buffer = bufferOf(scene, eyes);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+        OcclusionScene moved = scene;
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays / 4; ++ray) {
+                if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
+                const RealVector point = scene.pointIn(random, part);
+                ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 60);
 }
 
 TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {

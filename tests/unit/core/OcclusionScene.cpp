@@ -248,22 +248,25 @@ core::EarthColumns columnsOf(const EarthColumn& column) {
     return columns;
 }
 
-void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
+void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             double reach) {
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
+        // for eyes that may be away from their place
+        for (double& error : columns.error) error += reach;
         buffer.add(columns);
     }
 }
 
-std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer) {
+std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
     std::vector<Quarter> sorted;
     for (const GroundTile& tile : scene.tiles) {
         const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
-        auto hulls = core::BinBody(scene.ellipsoid, tile.bin, 0.0, frameOf(scene)).quarters();
+        auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
         plates.lowerTops(tile.bin, hulls);
         for (std::size_t i = 0; i < 4; ++i) {
             const auto half = [](const Interval& whole, bool isUpper) -> Interval {

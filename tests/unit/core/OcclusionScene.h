@@ -67,7 +67,9 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 [[nodiscard]] bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes);
 
 /// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
-void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells);
+/// `reach`: metres that the eye may be away from its place.
+void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             double reach = 0.0);
 
 /// A quarter of a tile, with its outline in the buffer's picture.
 struct Quarter {
@@ -75,8 +77,10 @@ struct Quarter {
     core::HorizonBuffer::Outline outline;
 };
 
-/// The quarters of all tiles, up to the tops of their meshes, the nearest first: so the buffer has to be asked.
-[[nodiscard]] std::vector<Quarter> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer);
+/// The quarters of all tiles, up to the tops of their meshes, the nearest first: so the buffer has to be asked. `reach`
+/// as above.
+[[nodiscard]] std::vector<Quarter> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
+                                               double reach = 0.0);
 
 [[nodiscard]] bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point);
 
