@@ -41,8 +41,8 @@ private:
 
 namespace {
 
-constexpr double kHighest = 300.0;  // metres above ground
-constexpr double kFarthest = 30e3;  // metres, of models about the camera
+constexpr double kHighestModel = 300.0;  // metres above ground
+constexpr double kFarthest = 30e3;       // metres, of models about the camera
 
 // An aircraft, some 30 m long, that flies to the north: a few hundred triangles.
 osg::ref_ptr<osg::Geode> makeAircraft() {
@@ -88,7 +88,7 @@ void Traffic::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
     const osg::Vec3d north = up ^ east;
     for (unsigned int i = 0; i < _count; ++i) {
         const double distance = reach * std::sqrt(share(random)), bearing = 2.0 * osg::PI * share(random);
-        const double height = std::max(0.0, kHighest * (1.5 * share(random) - 0.5)),
+        const double height = std::max(0.0, kHighestModel * (1.5 * share(random) - 0.5)),
                      heading = 2.0 * osg::PI * share(random);
         const osg::Vec3d place = eye + (east * std::sin(bearing) + north * std::cos(bearing)) * distance;
         const osg::Vec3d upThere = vertical(globe, place);

@@ -25,7 +25,7 @@ using core::GeodeticGrid;
 using core::GeodeticGridBounds;
 using core::Interval;
 
-constexpr double kPromised = 1e-7;  // metres
+constexpr double kPromisedSag = 1e-7;  // metres
 
 GeodeticGrid randomGrid(Random& random) {
     GeodeticGrid grid;
@@ -64,9 +64,9 @@ TEST(GeodeticGridBounds, HoldsTheChordsOfEveryEdge) {
             for (int step = 0; step <= 8; ++step) {
                 const Real t = step / Real(8);
                 const RealVector point = (1 - t) * real(a) + t * real(b);
-                ASSERT_GE(ecefToGeodetic(wgs84(), point).altitude + kPromised, lower - bounds.edgeSag()[edge]);
+                ASSERT_GE(ecefToGeodetic(wgs84(), point).altitude + kPromisedSag, lower - bounds.edgeSag()[edge]);
             }
-            EXPECT_LE(bounds.edgeSag()[edge], bounds.sag() + kPromised);
+            EXPECT_LE(bounds.edgeSag()[edge], bounds.sag() + kPromisedSag);
         }
     }
 }

@@ -141,7 +141,7 @@ Land landInMap(Random& random) {
     return land;
 }
 
-Ellipsoid randomGlobe(Random& random) {
+Ellipsoid anyGlobe(Random& random) {
     if (random.chance(0.7)) return wgs84();
     const double radius = random.logUniform(1e3, 1e8);
     return {radius, radius * random.uniform(0.996, 1.004)};
@@ -150,7 +150,7 @@ Ellipsoid randomGlobe(Random& random) {
 }  // namespace
 
 OcclusionScene::OcclusionScene(Random& random, bool hasSpikes, bool isMap)
-    : ellipsoid(isMap ? Ellipsoid::plane() : randomGlobe(random)) {
+    : ellipsoid(isMap ? Ellipsoid::plane() : anyGlobe(random)) {
     Land land = isMap ? landInMap(random) : landOnGlobe(random, ellipsoid);
     const Relief relief(random, land.size * random.logUniform(0.3, 3.0), land.height);
     const bool areAlike = random.chance(0.5);

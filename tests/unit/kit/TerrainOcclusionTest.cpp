@@ -349,11 +349,11 @@ TEST(TerrainOcclusion, NeedsARangeOfDepthsThatTellsRidgeAndTileApart) {
 TEST(TerrainOcclusion, NeedsMeshesOfTriangles) {
     // whose diagonals nobody knows
     const auto makeQuads = [](osg::Geometry& geometry) {
-        constexpr unsigned int kPosts = 9;
+        constexpr unsigned int kSide = 9;
         const osg::ref_ptr<osg::DrawElementsUInt> quads = new osg::DrawElementsUInt(GL_QUADS);
-        for (unsigned int i = 0; i + kPosts + 1 < kPosts * kPosts; ++i) {
-            if (i % kPosts == kPosts - 1) continue;
-            for (const unsigned int corner : {i, i + 1, i + kPosts + 1, i + kPosts}) quads->push_back(corner);
+        for (unsigned int i = 0; i + kSide + 1 < kSide * kSide; ++i) {
+            if (i % kSide == kSide - 1) continue;
+            for (const unsigned int corner : {i, i + 1, i + kSide + 1, i + kSide}) quads->push_back(corner);
         }
         geometry.setPrimitiveSet(0, quads);
     };
