@@ -157,9 +157,7 @@ TaylorInterval pow(const TaylorInterval& x, int exponent) noexcept {
     TaylorInterval::Series series{};
     IntervalNumber binomial(1.0);
     for (int k = 0; k < 4 && (exponent < 0 || k <= exponent); ++k) {
-        // Boost knows no power of zero by zero
-        const IntervalNumber power = k == exponent ? 1.0 : pow(x._coefficients[0], exponent - k);
-        series[static_cast<std::size_t>(k)] = binomial * power;
+        series[static_cast<std::size_t>(k)] = binomial * pow(x._coefficients[0], exponent - k);
         binomial = binomial * (static_cast<double>(exponent) - k) / (k + 1.0);
     }
     return TaylorInterval::composed(series, x);
@@ -170,7 +168,8 @@ double thirdDifferentialBound(const Vec3<TaylorInterval>& f) noexcept {
     glm::dvec3 coordinates(0.0);
     double monomials = 0.0;
     for (std::size_t i = TaylorInterval::kFirstOfDegree3; i < kSize; ++i) {
-        const glm::dvec3 size(norm(f.x.coefficient(i)), norm(f.y.coefficient(i)), norm(f.z.coefficient(i)));
+        const glm::dvec3 size(f.x.coefficient(i).magnitude(), f.y.coefficient(i).magnitude(),
+                              f.z.coefficient(i).magnitude());
         coordinates += size;
         monomials += std::sqrt(size.x * size.x + size.y * size.y + size.z * size.z);
     }

@@ -3,56 +3,64 @@
 
 #pragma once
 
-#include <algorithm>
-#include <boost/numeric/interval.hpp>
-#include <cmath>
-#include <limits>
-
 namespace osgAnalyticBin::core {
 
-/// Boost.Interval's way to round downward and upward: the result of any operation or function, moved by more than its
-/// error. A processor's rounding modes, Boost's own way, are not obeyed by compilers and C libraries.
-class OutwardRounding {
+/// A number known to lie between two doubles. Arithmetic and functions return an interval that holds every result for
+/// arguments within the given ones, rounding included. Where a result has no finite bounds (division by an interval
+/// with zero, the logarithm of a negative number, overflow) it is undefined, and so is all that is computed from it.
+/// Source: doc/theory/mappings.md, section 2.
+/// Guarantee: holds with a C library whose elementary functions are right to 4 ulps (glibc states at most 2);
+/// tests: IntervalNumber.*.
+class IntervalNumber final {
 public:
+    /// A point; undefined unless finite. Implicit, so that formulas may mix numbers.
+    IntervalNumber(double value = 0.0) noexcept : IntervalNumber(value, value) {}
+
+    /// Undefined unless lower <= upper and both are finite.
+    IntervalNumber(double lower, double upper) noexcept;
+
+    /// The number without bounds: NaN at both ends.
+    [[nodiscard]] static IntervalNumber undefined() noexcept;
+
+    /// NaN when undefined.
+    [[nodiscard]] double lower() const noexcept { return _lower; }
+    /// NaN when undefined.
+    [[nodiscard]] double upper() const noexcept { return _upper; }
+    /// Whether it has finite bounds.
+    [[nodiscard]] bool isDefined() const noexcept { return _lower <= _upper; }
+    /// Whether it is exactly the number 0.
+    [[nodiscard]] bool isZero() const noexcept { return _lower == 0.0 && _upper == 0.0; }
+
+    /// The largest absolute value; NaN when undefined.
+    [[nodiscard]] double magnitude() const noexcept;
+
+    /// Exact.
+    IntervalNumber operator-() const noexcept;
+
     /// @{
-    /// Which way force_rounding() moves.
-    void downward() noexcept { _direction = -1.0; }
-    void upward() noexcept { _direction = 1.0; }
-    void to_nearest() noexcept { _direction = 0.0; }
+    /// Encloses the result for every number of either operand; undefined where a divisor may be zero.
+    friend IntervalNumber operator+(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+    friend IntervalNumber operator-(const IntervalNumber& a, const IntervalNumber& b) noexcept { return a + -b; }
+    friend IntervalNumber operator*(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+    friend IntervalNumber operator/(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+
     /// @}
 
-    /// A bound of what `computed` is the rounded value of.
-    [[nodiscard]] double force_rounding(double computed) const noexcept {
-        constexpr double kRounding = 5.0 * std::numeric_limits<double>::epsilon();
-        constexpr double kTiny = std::numeric_limits<double>::denorm_min(), kMost = std::numeric_limits<double>::max();
-        const double step = std::abs(computed) * kRounding + kTiny;
-        if (_direction < 0.0) return std::min(computed, kMost) - step;
-        return _direction > 0.0 ? std::max(computed, -kMost) + step : computed;
-    }
-    /// The next integer in that direction.
-    [[nodiscard]] double to_int(double x) const noexcept { return _direction < 0.0 ? std::floor(x) : std::ceil(x); }
+    /// @{
+    /// Encloses the function over all numbers of the argument; undefined outside of its domain.
+    friend IntervalNumber sqrt(const IntervalNumber& x) noexcept;
+    friend IntervalNumber exp(const IntervalNumber& x) noexcept;
+    friend IntervalNumber log(const IntervalNumber& x) noexcept;
+    friend IntervalNumber sin(const IntervalNumber& x) noexcept;
+    friend IntervalNumber cos(const IntervalNumber& x) noexcept;
+    friend IntervalNumber tan(const IntervalNumber& x) noexcept;
+    friend IntervalNumber atan(const IntervalNumber& x) noexcept;
+    friend IntervalNumber pow(const IntervalNumber& x, int exponent) noexcept;
+    /// @}
 
 private:
-    double _direction = 0.0;
+    double _lower;
+    double _upper;
 };
-
-/// Operations and functions that round by OutwardRounding. Sums with zero are exact, and keep zeros zero.
-struct IntervalRounding : boost::numeric::interval_lib::rounded_transc_std<
-                              double, boost::numeric::interval_lib::rounded_arith_std<double, OutwardRounding>> {
-    /// @{
-    /// Bounds of a sum.
-    double add_down(double x, double y) { return x == 0.0 || y == 0.0 ? x + y : rounded_arith_std::add_down(x, y); }
-    double add_up(double x, double y) { return x == 0.0 || y == 0.0 ? x + y : rounded_arith_std::add_up(x, y); }
-    /// @}
-};
-
-/// A number known to lie between two doubles. Arithmetic and functions return an interval that holds every result for
-/// arguments within the given ones and the function's domain, rounding included. Ends are infinite where a result has
-/// no bounds (division by an interval with zero, the logarithm of zero, overflow), and NaN where there is none. Source:
-/// doc/theory/mappings.md, section 2. Guarantee: holds with a C library whose elementary functions are right to 4 ulps
-/// (glibc states at most 2); tests: IntervalNumber.*.
-using IntervalNumber = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<boost::numeric::interval_lib::save_state_nothing<IntervalRounding>,
-                                                   boost::numeric::interval_lib::checking_base<double>>>;
 
 }  // namespace osgAnalyticBin::core
