@@ -10,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <optional>
 
 namespace osgAnalyticBin::core {
 
@@ -25,6 +26,29 @@ void makeEmpty(double* slot, std::size_t stride) {
     for (std::size_t i = 0; i < row::kBinRows; ++i) slot[i * stride] = 0.0;
     slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
 }
+
+// An exact bin that is read from its slot only if the test of its middle is undecided.
+class SlotBin {
+public:
+    SlotBin(const double* slot, std::size_t stride) : _slot(slot), _stride(stride) {}
+
+    [[nodiscard]] glm::dvec3 hullPoint() const {
+        return {_slot[row::CenterX * _stride], _slot[row::CenterY * _stride], _slot[row::CenterZ * _stride]};
+    }
+    [[nodiscard]] double reach() const { return bin().reach(); }
+    [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const { return bin().supportPoint(direction); }
+    [[nodiscard]] Side classify(const Plane& plane) const { return bin().classify(plane); }
+
+private:
+    [[nodiscard]] const ExactGeodeticBin& bin() const {
+        if (!_bin) _bin.emplace(_slot, _stride);
+        return *_bin;
+    }
+
+    const double* _slot;
+    std::size_t _stride;
+    mutable std::optional<ExactGeodeticBin> _bin;
+};
 
 }  // namespace
 
@@ -84,17 +108,10 @@ void BinFamily::clear(std::size_t i) noexcept {
 
 bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept {
     assert(_data.filled >> i & 1);
-    const PlaneMask asked = undecided & planes.all(), second = asked & (asked - 1);
-    const bool areTwo = second != 0 && (second & (second - 1)) == 0;
-    if (!areTwo) return false;
-    const Plane one = planes[firstBit(asked)], other = planes[firstBit(second)];
     const double* const numbers = _data.numbers + i;
-    const auto at = [&](std::size_t number) { return numbers[number * _data.stride]; };
-    // before all numbers are read: nothing parts the middle from the wedge
-    const glm::dvec3 middle(at(row::CenterX), at(row::CenterY), at(row::CenterZ));
-    if (one.distance(middle) >= 0.0 && other.distance(middle) >= 0.0) return false;
-    if (_data.exact >> i & 1) return core::isSeparated(ExactGeodeticBin(numbers, _data.stride), one, other);
-    return core::isSeparated(QuadraticBin(numbers, _data.stride), one, other);
+    if (_data.exact >> i & 1)
+        return core::isSeparated(SlotBin(numbers, _data.stride), planes, planes.size(), undecided);
+    return core::isSeparated(QuadraticBin(numbers, _data.stride), planes, planes.size(), undecided);
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {
