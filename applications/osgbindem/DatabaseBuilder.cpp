@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BuildSources.h"
 #include "DatabaseFolder.h"
 #include "DiskFile.h"
 #include "Failure.h"

@@ -62,10 +62,6 @@ private:
     double _done = 0.0;
 };
 
-/// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their
-/// sizes and times. Two runs with the same text build the same files.
-[[nodiscard]] std::string describeSources(const Settings& settings, const TileLayout& layout);
-
 /// The layout that the settings ask for, or else the rasters.
 [[nodiscard]] TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic);
 

@@ -5,22 +5,17 @@
 
 #include "../kit/tile/TerrainHider.h"
 #include "LevelPicture.h"
+#include "NearMeshes.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
 #include <glm/vec3.hpp>
-#include <osg/Matrixd>
-#include <osg/Node>
-#include <osg/observer_ptr>
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,30 +23,6 @@
 #include <vector>
 
 namespace osgAnalyticBin {
-
-/// Keeps the meshes around an eye from frame to frame.
-class NearMeshes {
-public:
-    /// Returns: all triangles of a tile's own mesh, ECEF; null where the mesh cannot be read. They do not change: other
-    /// threads may keep them. Cost: the mesh is read when its tile was not asked for lately, when a change of it was
-    /// noticed, and after 16 uses at most.
-    [[nodiscard]] std::shared_ptr<const core::EcefMesh> meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);
-
-    /// More tiles are not kept.
-    static constexpr std::size_t kMostTiles = 16;
-
-private:
-    struct Known {
-        osg::observer_ptr<const AnalyticBinCullCallback> tile;
-        osg::observer_ptr<const osg::Node> node;
-        osg::Matrixd localToEcef;
-        int uses;
-        std::shared_ptr<const core::EcefMesh> mesh;
-    };
-
-    std::vector<Known> _known;
-    std::size_t _oldest = 0;
-};
 
 /// The tiles that terrain hides from all eyes near a place. Kept from view to view, because the search takes longer
 /// than all other culling.

@@ -126,7 +126,7 @@ FAULTS = [
           "whereBit<Real>(known.open, bit)", "whereBit<Real>(bits<Real>(~0u), bit)", CORE, "BinFamily*"),
     Fault("families: exact lanes are lost beside quadratic ones", "src/core/kernels/FamilyStages.inl",
           "openExact = exclusive(known.open, openQuadratic)", "openExact = bits<Real>(0)", CORE, "BinFamily*"),
-    Fault("planes that are decided stay undecided", "src/core/bin/QuadraticBin.cpp", "undecided &= ~sides.inside();", "", CORE,
+    Fault("planes that are decided stay undecided", "src/core/PlaneSet.cpp", "undecided &= ~sides.inside();", "", CORE,
           "PlaneSet*:Classify*"),
 
     # the horizon
@@ -546,7 +546,7 @@ FAULTS = [
     Fault("family: tiles beyond an edge are kept", "src/kit/cull/TileFamily.cpp",
           "if (isBeyond) verdicts.separated |=", "if (false) verdicts.separated |=", NODE, "TileFamily.*"),
     Fault("family: an edge is no edge in the slots", "src/core/bin/BinFamily.cpp",
-          "return core::isSeparated(ExactGeodeticBin(", "return true || core::isSeparated(ExactGeodeticBin(", CORE, "BinFamily.*"),
+          "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
 
     # files and frames
     Fault("bins are installed on what OSG's cache keeps", "src/kit/database/BinReadFileCallback.cpp",

@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/mappings/TaylorInterval.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <algorithm>
 #include <boost/math/differentiation/autodiff.hpp>

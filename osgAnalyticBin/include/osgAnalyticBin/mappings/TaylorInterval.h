@@ -5,21 +5,12 @@
 
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/mappings/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <array>
 #include <cstddef>
 
 namespace osgAnalyticBin::core {
-
-/// A point whose coordinates are numbers of any kind: double, long double, derivatives, enclosures. What the formula of
-/// a mapping returns.
-template <class T>
-struct Vec3 {
-    /// @{
-    /// In the order of the axes.
-    T x, y, z;
-    /// @}
-};
 
 /// A number of the kind that formulas are written for, which carries enclosures of its Taylor coefficients up to the
 /// third order in three variables: evaluated with it over a box, a formula encloses its own third derivatives there.

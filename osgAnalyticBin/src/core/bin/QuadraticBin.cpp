@@ -123,14 +123,6 @@ glm::dvec3 QuadraticBin::modelPoint(const glm::dvec3& unit) const noexcept {
            second(4) * (u * w) + second(5) * (v * w);
 }
 
-Side classifyNumbers(const double* numbers, bool isExact, const PlaneSet& planes, PlaneMask& undecided) noexcept {
-    const kernels::PlaneSides sides =
-        kernels::activeKernels.bin(numbers, isExact, planes.blocks(), undecided & planes.all());
-    undecided &= ~sides.inside();
-    if (sides.outside() != 0) return Side::Outside;
-    return undecided == 0 ? Side::Inside : Side::Straddling;
-}
-
 // Not inlined: one plane in a thousand needs it.
 kernels::PlaneSides kernels::sidesByExactRange(const double* numbers, std::size_t stride, const PlaneBlock* blocks,
                                                PlaneMask planes) {

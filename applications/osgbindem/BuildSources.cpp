@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BuildSources.h"
+
+#include "RasterLayer.h"
+#include "VoidFill.h"
+
+#include <osgAnalyticBin/Version.h>
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <osg/Version>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <iomanip>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <system_error>
+
+namespace osgbindem {
+
+namespace {
+
+constexpr const char* kFoundLevels = "levels found ";
+constexpr const char* kElevation = "elevation ";
+constexpr const char* kImage = "image ";
+
+// To be raised when the same settings come to make other files.
+constexpr int kFormat = 5;
+
+std::string wholePath(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::canonical(path, error);
+    return error ? path : whole.string();  // GDAL has names that are no files
+}
+
+void describeFile(const std::string& path, std::ostream& out) {
+    VSIStatBufL status{};
+    const bool isThere = VSIStatL(path.c_str(), &status) == 0;
+    out << ", file " << wholePath(path);
+    if (isThere) out << ' ' << status.st_size << ' ' << status.st_mtim.tv_sec << '.' << status.st_mtim.tv_nsec;
+}
+
+/// How far from a change of a coarser raster heights of this one's voids may change, in degrees.
+double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayout& layout) {
+    const RectDeg extent = grid.extent();
+    double spacing =
+        std::max((extent.east - extent.west) / grid.columns(), (extent.north - extent.south) / grid.rows());
+    // An overview may be read in place of the raster.
+    if (settings.useOverviews) spacing = std::max(spacing, 2.0 * layout.spacingDeg(layout.deepestLevel()));
+    return VoidFill::kMostReach * spacing;
+}
+
+/// Rasters of all layers in the order of the command line, a line each. `reach`: of a raster's voids, in degrees.
+template <typename Reach>
+void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out, const Reach& reach) {
+    std::map<std::size_t, const RasterLayer::Member*> members;
+    for (const auto& layer : layers)
+        for (const RasterLayer::Member& member : layer->members()) members[member.number] = &member;
+    for (const auto& [number, member] : members) {
+        // Where heights or colours may depend on the raster.
+        const RectDeg area = member->grid.extent().grownBy(member->grid.resolutionDeg());
+        out << kind << reach(member->grid) << ' ' << member->grid.resolutionDeg() << ' ' << area.west << ' '
+            << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file->path())
+            << ", blended over ";
+        member->band.describe(out);
+        out << ", scale " << member->file->options().metresPerUnit.value_or(0.0);
+        // A raster may be made of many files: a mosaic, or one with overviews beside it.
+        const CPLStringList files(member->file->file().GetFileList());
+        for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);
+        out << '\n';
+    }
+}
+
+}  // namespace
+
+std::string describeSources(const Settings& settings, const TileLayout& layout) {
+    std::ostringstream out;
+    out << std::setprecision(std::numeric_limits<double>::max_digits10);
+    out << "osgbindem " << osgAnalyticBin::version() << ", format " << kFormat << ", GDAL "
+        << GDALVersionInfo("RELEASE_NAME") << ", OpenSceneGraph " << osgGetVersion() << '\n';
+    out << (settings.levels ? "levels given " : kFoundLevels) << layout.deepestLevel() << '\n';
+    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", packed " << settings.packed
+        << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
+    out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
+        << settings.isWgs84 << '\n';
+    if (settings.region) {
+        const RectDeg& region = *settings.region;
+        out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
+    }
+    if (!settings.geoid.empty()) {
+        const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
+        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid);
+        if (isFile) describeFile(settings.geoid, out);
+        out << '\n';
+    }
+    if (settings.band) out << "band " << *settings.band << '\n';
+    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
+    if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
+    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out,
+                    [&](const RasterGrid& grid) { return reachOf(grid, settings, layout); });
+    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const RasterGrid&) { return 0.0; });
+    return out.str();
+}
+
+namespace {
+
+struct Raster {
+    /// See reachOf(). No part of what the raster is: it depends on the other rasters too.
+    double reachDeg = 0.0;
+    double resolutionDeg = 0.0;
+    RectDeg area;
+    /// All that is said of the raster but its reach.
+    std::string text;
+
+    bool operator==(const Raster& other) const { return text == other.text; }
+};
+using Rasters = std::vector<Raster>;
+
+/// The description of a database taken apart.
+struct Sources {
+    explicit Sources(const std::string& description) {
+        std::istringstream in(description);
+        for (std::string line; std::getline(in, line);) {
+            if (line.rfind(kElevation, 0) == 0) {
+                rasters.push_back(rasterFrom(line.substr(std::strlen(kElevation))));
+            } else if (line.rfind(kImage, 0) == 0) {
+                images.push_back(rasterFrom(line.substr(std::strlen(kImage))));
+            } else if (line.rfind(kFoundLevels, 0) != 0) {
+                settings += line + '\n';
+            }
+        }
+    }
+
+    /// Everything but rasters and images, and the levels where nobody gave them.
+    std::string settings;
+    Rasters rasters;
+    Rasters images;
+
+private:
+    static Raster rasterFrom(const std::string& line) {
+        Raster raster;
+        std::istringstream in(line);
+        in >> raster.reachDeg;
+        std::getline(in, raster.text);
+        std::istringstream(raster.text) >> raster.resolutionDeg >> raster.area.west >> raster.area.south >>
+            raster.area.east >> raster.area.north;
+        return raster;
+    }
+};
+
+/// Those of the first that are not in the second.
+Rasters without(const Rasters& rasters, const Rasters& others) {
+    Rasters result;
+    std::copy_if(rasters.begin(), rasters.end(), std::back_inserter(result),
+                 [&](const Raster& raster) { return std::find(others.begin(), others.end(), raster) == others.end(); });
+    return result;
+}
+
+void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
+    Rasters changed = without(before, now);
+    const Rasters added = without(now, before);
+    Rasters kept = without(before, changed);
+    // Of two rasters that are equally fine, the one that is named first counts.
+    const bool isInOrder = kept == without(now, added);
+    changed.insert(changed.end(), added.begin(), added.end());
+    if (!isInOrder) {
+        changed.insert(changed.end(), kept.begin(), kept.end());
+        kept.clear();
+    }
+    constexpr double kNearlyAsFine = 1.1;  // spacings of what counts as equally fine differ by less
+    for (const Raster& raster : changed) {
+        // Heights may change where the raster lies, and in the voids of finer ones that are kept.
+        double reach = 0.0;
+        for (const Raster& other : kept)
+            if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
+        area.push_back(raster.area.grownBy(reach));
+    }
+}
+
+}  // namespace
+
+bool touches(const ChangedArea& area, const RectDeg& rect) noexcept {
+    const auto haveCommonLongitude = [&](const RectDeg& changed) {
+        const double turns = std::floor((changed.west - rect.west) / 360.0);
+        return rect.east + 360.0 * turns >= changed.west || rect.west + 360.0 * (turns + 1.0) <= changed.east;
+    };
+    return std::any_of(area.begin(), area.end(), [&](const RectDeg& changed) {
+        if (changed.south > rect.north || changed.north < rect.south) return false;
+        const bool isAtPole =
+            (changed.north >= 90.0 && rect.north >= 90.0) || (changed.south <= -90.0 && rect.south <= -90.0);
+        return isAtPole || haveCommonLongitude(changed);
+    });
+}
+
+std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
+    const Sources old(before);
+    const Sources current(now);
+    if (old.settings != current.settings) return std::nullopt;
+    ChangedArea area;
+    addChanges(old.rasters, current.rasters, area);
+    addChanges(old.images, current.images, area);
+    return area;
+}
+
+}  // namespace osgbindem
