@@ -109,13 +109,7 @@ SurveyedTile TileBuilder::begun(const TileId& tile) const {
     surveyed.tally.tiles = 1.0;
     surveyed.tally.deepest = tile.level;
     TerrainGrid& grid = surveyed.grid;
-    grid.ellipsoid = _layout.ellipsoid();
-    grid.cells = _layout.cells();
-    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * grid.cells) << tile.level;
-    const PostId first = _layout.firstPost(tile, tile.level);
-    grid.firstColumn = first.column;
-    grid.firstRow = first.row;
-    grid.quantum = _layout.quantum(tile.level);
+    grid = gridWithoutHeights(_layout, tile);
     grid.heights.resize(static_cast<std::size_t>((grid.cells + 3) * (grid.cells + 3)));
     return surveyed;
 }

@@ -40,6 +40,18 @@ std::size_t edgeVertex(int cells, Edge edge, int along) noexcept {
     return static_cast<std::size_t>(row * (cells + 1) + column);
 }
 
+osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile) {
+    osgAnalyticBin::TerrainGrid grid;
+    grid.ellipsoid = layout.ellipsoid();
+    grid.cells = layout.cells();
+    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * grid.cells) << tile.level;
+    const PostId first = layout.firstPost(tile, tile.level);
+    grid.firstColumn = first.column;
+    grid.firstRow = first.row;
+    grid.quantum = layout.quantum(tile.level);
+    return grid;
+}
+
 osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef) {
     const osg::ref_ptr<osg::MatrixTransform> transform =
         new osg::MatrixTransform(osg::Matrixd::translate(originEcef.x, originEcef.y, originEcef.z));

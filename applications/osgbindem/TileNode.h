@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -21,6 +22,9 @@ namespace osgbindem {
 
 /// The surface vertex at a place along an edge, counted eastward or northward.
 [[nodiscard]] std::size_t edgeVertex(int cells, Edge edge, int along) noexcept;
+
+/// What the grid of a tile is apart from its heights: its size, and its place among the posts of its level.
+[[nodiscard]] osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile);
 
 /// Puts the geometry at its place on the globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef);

@@ -127,16 +127,9 @@ AnalyticBin ProceduralGlobe::binOf(const TileId& tile) const {
 }
 
 TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
-    TerrainGrid grid;
-    grid.ellipsoid = _layout.ellipsoid();
-    grid.cells = _layout.cells();
-    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * grid.cells) << tile.level;
-    const PostId first = _layout.firstPost(tile, tile.level);
-    grid.firstColumn = first.column;
-    grid.firstRow = first.row;
-    grid.quantum = _layout.quantum(tile.level);
-    const auto postAt = [&first](int column, int row) {
-        return PostId{first.level, first.column + column, first.row + row};
+    TerrainGrid grid = osgbindem::gridWithoutHeights(_layout, tile);
+    const auto postAt = [&](int column, int row) {
+        return PostId{tile.level, grid.firstColumn + column, grid.firstRow + row};
     };
     for (int row = -1; row <= grid.cells + 1; ++row)
         for (int column = -1; column <= grid.cells + 1; ++column)
