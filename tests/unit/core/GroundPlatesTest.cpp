@@ -151,8 +151,26 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasFolds) {
         expectBelow(random, ellipsoid, mesh, plates, known);
         folded += plates.isKnown() ? 1 : 0;
     }
-    std::printf("%d meshes are known\n", folded);
     EXPECT_GT(known, 800 * 10);
+    EXPECT_GT(folded, 200);
+}
+
+// A triangle that is missing, that is turned over, or that lies on another one in place of its own.
+TEST(GroundPlates, AreNotKnownWhereTheMeshHasAHole) {
+    Random random(1703);
+    for (int trial = 0; trial < 800; ++trial) {
+        const Ellipsoid ellipsoid = wgs84();
+        const GeodeticBin extents = randomExtents(random, ellipsoid);
+        EcefMesh mesh = gridMesh(random, ellipsoid, extents, static_cast<std::uint32_t>(random.integer(2, 12)));
+        const int triangles = static_cast<int>(mesh.triangles.size() / 3);
+        const int hole = random.integer(0, triangles - 1);
+        const auto at = mesh.triangles.begin() + 3 * hole;
+        const int kind = random.integer(0, 2);
+        if (kind == 0) mesh.triangles.erase(at, at + 3);
+        if (kind == 1) std::swap(at[0], at[1]);
+        if (kind == 2) std::copy_n(mesh.triangles.begin() + 3 * ((hole + 1) % triangles), 3, at);
+        ASSERT_FALSE(GroundPlates(ellipsoid, mesh, extents).isKnown()) << "kind " << kind << ", triangle " << hole;
+    }
 }
 
 // A lens in the air has a mesh above its middle, closed all round, and none beside it.
