@@ -15,7 +15,7 @@ using support::UsageError;
 
 namespace {
 
-// The rules of others, which a build with applications/research adds.
+// Methods of others, for comparison: a build with applications/research adds them.
 const std::set<std::string> kPeerBases{"box", "orientedbox", "corners", "paper"};
 #ifdef OSGANALYTICBIN_RESEARCH
 constexpr bool kArePeersBuilt = true;

@@ -19,8 +19,8 @@ enum class Clusters {
     Fill  ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
 };
 
-/// Counts and treats what is read for whichever scene is being shown, pages that the DatabasePager loads too: removes
-/// or fills cluster callbacks, and raises the minimum expiry time of what PagedLODs page in, as bins do by
+/// Counts the files that are read, also those that the DatabasePager loads, and changes what is read: it removes or
+/// fills cluster callbacks, and raises the minimum expiry time of what PagedLODs page in, as bins do by
 /// CullOptions::expiry; longer times stay. At first it changes nothing. One in a program, installed before the first
 /// file is read.
 class FileWatch : public flight::ReadCounter {

@@ -269,7 +269,7 @@ private:
     int _width;
     /// Round the globe, to either side.
     int _turns;
-    /// Columns may be beyond the raster's by a turn of the globe.
+    /// Columns may lie outside of the raster by one turn of the globe.
     PixelWindow _posts;
     std::vector<double> _heights;
     /// Of each post. What is missing is beyond the raster's border, or in a void.

@@ -137,7 +137,7 @@ void addUserCallback(const Part& part, osg::Node& node) {
     hang(new Masker(~kMasked), isNested, node);
 }
 
-// Variants: masked; taken away; a plain group in its place; levels that are shown from nearby alone.
+// Variants: masked; taken away; a plain group in its place; levels that are shown only from nearby.
 void vanish(int variant, osg::Node& node) {
     if (variant == 0) return node.setNodeMask(0);
     auto* const levels = dynamic_cast<osg::LOD*>(&node);

@@ -185,7 +185,7 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
         EXPECT_DOUBLE_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
     }
     EXPECT_EQ(cluster->getDeviation(), -0.5f);
-    // heights that are not declared: all terrain on earth, in feet
+    // without declared heights the bins hold all terrain on earth, in feet
     const core::Interval heights = test::installedOn(*tile)->getBin().bin().altitude();
     EXPECT_GE(heights.upper, 8849.0 / 0.3048);
     EXPECT_LE(heights.lower, -10935.0 / 0.3048);

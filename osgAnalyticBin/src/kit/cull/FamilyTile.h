@@ -61,7 +61,7 @@ public:
     static constexpr std::size_t kMostParts = 4;
     /// A node of the own mesh, parents before children: part(0) is the mesh. OSG draws the whole mesh as long as it
     /// enters each of them. Returns: nullptr behind the last one; of all, where the mesh is not known.
-    [[nodiscard]] osg::Node* part(std::size_t i) const { return i < kMostParts ? _parts[i].node.get() : nullptr; }
+    [[nodiscard]] osg::Node* part(std::size_t i) const { return i < _count ? _parts[i].node.get() : nullptr; }
     [[nodiscard]] bool isMesh(const osg::Node& node) const { return &node == part(0); }
 
     /// Whether meshes can be drawn in this traversal.

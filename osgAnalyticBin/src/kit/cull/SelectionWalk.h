@@ -90,7 +90,7 @@ private:
         std::uint64_t kept = 0, certain = 0;
         // for evidence
         std::uint64_t searched = 0, inView = 0;
-        std::uint64_t withColumns = 0;  // that are more than the bin, where some tile is deeper than the occluder
+        std::uint64_t withColumns = 0;  // those whose column has to be asked
         bool mayHoldEye = false;
     };
 

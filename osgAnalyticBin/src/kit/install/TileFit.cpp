@@ -270,7 +270,7 @@ private:
         return surface;
     }
 
-    // The same of a tile that has no bin of its own stored, below one that has.
+    // The same for a tile without a stored bin, below a tile that has one.
     void checkUnstored(const AnalyticBin& shown, double sag) {
         if (!isHeld(_above, shown, sag)) report(Finding::LargerThanStored, shown);
     }
