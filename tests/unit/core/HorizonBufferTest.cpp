@@ -359,6 +359,27 @@ TEST(HorizonBuffer, IsTheSameForAllInstructionSets) {
 
 #endif
 
+// Random terrain has few bodies just in front of a wall: earth waits in lists of those that are about as far.
+TEST(HorizonBuffer, HidesNothingJustInFrontOfEarth) {
+    Random random(1741);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const double forward = random.logUniform(1e3, 4e3), share = random.logUniform(1e-5, 0.1);
+        EarthColumn column;
+        for (std::size_t i = 0; i < 4; ++i) {
+            column.top[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, 0.5, forward);
+            column.bottom[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, -0.5, forward);
+        }
+        const auto hides = [&](double at) {
+            HorizonBuffer buffer(0.0, kAcross);
+            add(buffer, column);
+            const BinHull body = ball(pointAt(0.0, 0.0, at), 1e-6);
+            return buffer.hides(buffer.outlineOf(body));
+        };
+        ASSERT_FALSE(hides((1.0 - share) * forward)) << share;
+        ASSERT_TRUE(hides((1.0 + share) * forward)) << share;
+    }
+}
+
 // If two depths are equal after rounding, the body that is drawn first stays visible.
 TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     constexpr double kForward = 1000.0, kDepthStep = 1e-5;
