@@ -24,15 +24,15 @@ namespace {
 
 using core::BinHull;
 using core::GeodeticBin;
+using core::GroundPlates;
 using core::HorizonBuffer;
 
 // A shown tile.
 struct Candidate {
     const FoundOcclusion::Tile* tile;
-    const core::GroundPlates* plates;  // null: not known
+    const GroundPlates* plates;  // null: not known
     bool isOnlyLevel;
     double distance = HUGE_VAL;  // metres from the eye to a corner of the bin, the nearest one
-    double size = 0.0;           // metres from corner to corner
     bool isHidden = true;        // as far as is known
     bool isMeshAlone = false;    // finer levels may reach higher
     bool isInPicture = false;    // at least one quarter is
@@ -101,7 +101,7 @@ public:
         std::sort(_order.begin(), _order.end());
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
-            if (_buffer.hides(quarter.outline)) continue;
+            if (_buffer.hides(quarter.outline) || arePartsHidden(quarter)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
@@ -125,9 +125,8 @@ private:
         const core::BinBody body(_ellipsoid, drawn, candidate.tile->margin, _frame);
         if (_buffer.isBeside(body.ball())) return;
         auto hulls = body.quarters();
-        candidate.isMeshAlone = candidate.plates && candidate.isOnlyLevel && candidate.plates->lowerTops(drawn, hulls);
-        candidate.size = 2.0 * glm::distance(hulls.back().corner(0), hulls.back().corner(7));
         for (std::size_t i = 0; i < hulls.size(); ++i) {
+            if (isMeshAll(candidate)) lower(hulls[i], candidate.plates->mostOfQuarter(i, drawn), candidate);
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hulls[i]);
             candidate.distance = std::min(candidate.distance, outline.distance);
             if (outline.isBeside) continue;
@@ -135,6 +134,33 @@ private:
             _order.emplace_back(outline.nearest, _quarters.size());
             _quarters.push_back({number, i, outline});
         }
+    }
+
+    // Whether the four parts of a quarter are hidden, most of which are not as high. All take the earth in front of the
+    // quarter: earth is used front to back.
+    [[nodiscard]] bool arePartsHidden(const Quarter& quarter) {
+        Candidate& candidate = _candidates[quarter.candidate];
+        const GeodeticBin drawn = candidate.tile->drawn(), bin = drawn.quarters()[quarter.number];
+        auto hulls = core::BinBody(_ellipsoid, bin, candidate.tile->margin, _frame).quarters();
+        for (std::size_t i = 0; i < hulls.size(); ++i) {
+            if (isMeshAll(candidate)) lower(hulls[i], candidate.plates->most(4 * quarter.number + i, drawn), candidate);
+            HorizonBuffer::Outline outline = _buffer.outlineOf(hulls[i]);
+            outline.nearest = quarter.outline.nearest;
+            if (!outline.isBeside && !_buffer.hides(outline)) return false;
+        }
+        return true;
+    }
+
+    // Whether a tile draws nothing above a mesh of known height.
+    [[nodiscard]] static bool isMeshAll(const Candidate& candidate) {
+        return candidate.plates && candidate.isOnlyLevel;
+    }
+
+    // Leaves out of a body of the tile what is above `top`.
+    static void lower(BinHull& hull, double top, Candidate& candidate) {
+        if (!(top < candidate.tile->high)) return;
+        hull.lowerTop(top, {candidate.tile->low, candidate.tile->high});
+        candidate.isMeshAlone = true;
     }
 
     // Terrain that the near plane may cut.
@@ -225,12 +251,6 @@ private:
         const bool isTileOverRegion = isOverRegion(tile.bin);
         if (!candidate.plates || !tile.isSure) return;
         if (!isTileOverRegion && !isOverRegion(tile.bin.quarters()[quarter.number])) return;
-        // a cell should be some strips wide
-        constexpr double kStripsOfCell = 8.0;
-        const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
-                              _found->span.across.width() * HorizonBuffer::kStrips;
-        std::size_t cells = 8;
-        while (cells > 2 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
         // deep enough to reach below what is behind it, and not so deep that columns part
         const double radius = _ellipsoid.polarRadius();
         const double depth =
@@ -238,7 +258,10 @@ private:
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        candidate.plates->columns(cells, coarsest, quarter.number, depth, _frame, _columns);
+        // finer cells that stand out by less of a strip's width in the picture hide hardly more
+        constexpr double kWorth = 0.1;
+        const double worth = kWorth * candidate.distance * _found->span.across.width() / HorizonBuffer::kStrips;
+        candidate.plates->columns(GroundPlates::kFinest, coarsest, quarter.number, depth, worth, _frame, _columns);
         _buffer.add(_columns);
     }
 
@@ -247,7 +270,7 @@ private:
     FoundPtr _found;
     const core::InverseFrame _frame;
     HorizonBuffer _buffer;
-    std::vector<std::shared_ptr<const core::GroundPlates>> _plates;  // held
+    std::vector<std::shared_ptr<const GroundPlates>> _plates;  // held
     struct NearMesh {
         std::shared_ptr<const core::EcefMesh> mesh;
         double margin;

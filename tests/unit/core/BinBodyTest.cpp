@@ -37,7 +37,7 @@ TEST(BinBody, IsInTheHullsOfItsQuarters) {
         const int quarter = random.integer(0, 3);
         BinHull hull = core::BinBody(ellipsoid, bin, 0.0, frame).quarters()[static_cast<std::size_t>(quarter)];
         const double top = random.chance(0.5) ? 1.0 : random.uniform();
-        hull.lowerTop(top);
+        hull.lowerTop(low + top * bin.altitude().width(), bin.altitude());
         // at the middle the interpolation is worst
         const auto share = [&] { return random.chance(0.5) ? 0.5 : random.uniform(); };
         const double p = share(), l = share(), h = random.uniform();

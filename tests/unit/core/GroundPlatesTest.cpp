@@ -75,7 +75,7 @@ std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells
     std::vector<EarthColumn> columns;
     core::EarthColumns some;
     for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter) {
-        plates.columns(cells, cells, quarter, depth, core::Frame(), some);
+        plates.columns(cells, cells, quarter, depth, 0.0, core::Frame(), some);
         for (std::size_t i = 0; i < some.size; ++i) {
             if (!std::isnan(some.error[i])) columns.push_back(columnOf(some, i));
         }
@@ -237,6 +237,35 @@ TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
     }
 }
 
+TEST(GroundPlates, ColumnsOfFinerCellsAreThoseThatStandOut) {
+    Random random(1738);
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    const GroundPlates plates(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
+    core::EarthColumns all, some;
+    for (const double worth : {0.0, 100.0, 1e9}) {
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            std::size_t expected = 1;
+            for (const std::size_t cells : {std::size_t{4}, std::size_t{8}}) {
+                for (std::size_t i = 0; i < cells * cells / 4; ++i) {
+                    const std::size_t row = quarter / 2 * cells / 2 + i / (cells / 2);
+                    const std::size_t column = quarter % 2 * cells / 2 + i % (cells / 2);
+                    const double above = plates.least(cells / 2, row / 2, column / 2);
+                    expected += plates.least(cells, row, column) > above + worth ? 1U : 0U;
+                }
+            }
+            plates.columns(8, 2, quarter, 1e3, worth, core::Frame(), some);
+            EXPECT_EQ(some.size, expected);
+            plates.columns(8, 2, quarter, 1e3, -HUGE_VAL, core::Frame(), all);
+            EXPECT_EQ(all.size, 21);
+            for (std::size_t i = 0, at = 0; i < some.size; ++i, ++at) {
+                // the same in the same order
+                while (at < all.size && columnOf(all, at).top != columnOf(some, i).top) ++at;
+                EXPECT_LT(at, all.size);
+            }
+        }
+    }
+}
+
 // A grid of posts, and the altitudes that gridMesh() gave to them.
 struct Posts {
     core::GeodeticGrid grid;
@@ -383,7 +412,7 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
         const std::size_t half = cells / 2, here = std::max<std::size_t>(half, 1);
         const double depth = 1e-3 * ellipsoid.equatorialRadius();
         core::EarthColumns columns;
-        plates.columns(cells, cells, quarter, depth, frame, columns);
+        plates.columns(cells, cells, quarter, depth, 0.0, frame, columns);
         for (std::size_t i = 0; i < columns.size; ++i) {
             if (std::isnan(columns.error[i])) continue;
             wide += trial % 4 == 0;

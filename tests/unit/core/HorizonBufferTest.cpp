@@ -143,7 +143,7 @@ TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
             hidden += isHidden;
         }
     }
-    std::printf("%d quarters of bins whose tops no ray reaches, %d hidden\n", unseen, hidden);
+    std::printf("%d quarters of bins and parts whose tops no ray reaches, %d hidden\n", unseen, hidden);
     EXPECT_GT(10 * hidden, 3 * unseen);
 }
 

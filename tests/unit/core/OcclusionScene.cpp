@@ -255,31 +255,36 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
+        plates.columns(cells, cells, quarter, depth, 0.0, frameOf(scene), columns);
         // for eyes that may be away from their place
         for (double& error : columns.error) error += reach;
         buffer.add(columns);
     }
 }
 
-std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
-    std::vector<Quarter> sorted;
+std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
+    std::vector<OutlinedPart> sorted;
+    const core::Frame frame = frameOf(scene);
     for (const GroundTile& tile : scene.tiles) {
         const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
-        auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
-        plates.lowerTops(tile.bin, hulls);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto half = [](const Interval& whole, bool isUpper) -> Interval {
-                return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};
-            };
-            const auto [low, high] = tile.bin.altitude();
-            const GeodeticBin bin(half(tile.bin.latitude(), i / 2 == 1), half(tile.bin.longitude(), i % 2 == 1),
-                                  {low, std::clamp(plates.most(i, tile.bin), low, high)});
-            sorted.push_back({{{}, bin}, buffer.outlineOf(hulls[i])});
+        const core::Interval altitude = tile.bin.altitude();
+        const auto add = [&](core::BinHull hull, const GeodeticBin& bin, double top) {
+            if (top < altitude.upper) hull.lowerTop(top, altitude);
+            const GeodeticBin drawn =
+                bin.withAltitude({altitude.lower, std::clamp(top, altitude.lower, altitude.upper)});
+            sorted.push_back({{{}, drawn}, buffer.outlineOf(hull)});
+        };
+        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frame).quarters();
+        const auto bins = tile.bin.quarters();
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            add(hulls[quarter], bins[quarter], plates.mostOfQuarter(quarter, tile.bin));
+            const auto parts = core::BinBody(scene.ellipsoid, bins[quarter], reach, frame).quarters();
+            for (std::size_t i = 0; i < 4; ++i)
+                add(parts[i], bins[quarter].quarters()[i], plates.most(4 * quarter + i, tile.bin));
         }
     }
     std::sort(sorted.begin(), sorted.end(),
-              [](const Quarter& a, const Quarter& b) { return a.outline.nearest < b.outline.nearest; });
+              [](const OutlinedPart& a, const OutlinedPart& b) { return a.outline.nearest < b.outline.nearest; });
     return sorted;
 }
 

@@ -72,15 +72,15 @@ void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const Gro
              double reach = 0.0);
 
 /// A quarter of a tile, with its outline in the buffer's picture.
-struct Quarter {
+struct OutlinedPart {
     GroundTile part;  ///< without a mesh
     core::HorizonBuffer::Outline outline;
 };
 
-/// The quarters of all tiles, up to the tops of their meshes, the nearest first: so the buffer has to be asked. `reach`
-/// as above.
-[[nodiscard]] std::vector<Quarter> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
-                                               double reach = 0.0);
+/// The quarters of all tiles and their parts, up to the tops of their meshes, the nearest first: so the buffer has to
+/// be asked. `reach` as above.
+[[nodiscard]] std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
+                                                    double reach = 0.0);
 
 [[nodiscard]] bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point);
 

@@ -17,7 +17,8 @@
 namespace osgAnalyticBin::core {
 
 // Positions are linear in altitude.
-void BinHull::lowerTop(double share) noexcept {
+void BinHull::lowerTop(double top, const Interval& altitude) noexcept {
+    const double share = std::max(top - altitude.lower, 0.0) / altitude.width();
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3 bottom = corner(i);
         setCorner(i + 4, bottom + share * (corner(i + 4) - bottom));

@@ -111,16 +111,16 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
             }
         });
     }
-    std::array<double, 4> high;
+    std::array<double, kParts> high;
     high.fill(-std::numeric_limits<double>::infinity());
     cells.forEach([&](std::size_t row, std::size_t column, const Interval& between) {
         const auto met = [](const Interval& extents, double width, std::size_t i, double beyond) -> Interval {
             const double from = extents.lower + width * static_cast<double>(i);
             return {from - beyond, from + width + beyond};
         };
-        forEachQuarter(grid.latitude, grid.longitude, met(grid.latitude, along, row, reach.aside),
-                       met(grid.longitude, across, column, reach.around),
-                       [&](std::size_t quarter) { high[quarter] = std::max(high[quarter], between.upper); });
+        forEachPart(grid.latitude, grid.longitude, met(grid.latitude, along, row, reach.aside),
+                    met(grid.longitude, across, column, reach.around),
+                    [&](std::size_t part) { high[part] = std::max(high[part], between.upper); });
     });
     encode(low, high, margin);
     if (!mayHang(skirt)) _most.fill(0);

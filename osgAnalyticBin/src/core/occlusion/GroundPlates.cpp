@@ -26,6 +26,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Codes of bounds: the first stands for what is not known.
 constexpr std::uint16_t kUnknown = 0, kFirstCode = 1, kLastCode = 65535;
 
+static_assert(kCellsOfGrids.back() == GroundPlates::kFinest);
+
 }  // namespace
 
 // Goes over the triangles of a mesh. Source: doc/theory/occlusion.md, section 3.
@@ -128,18 +130,18 @@ private:
         }
     }
 
-    // For the quarters that the bounds reach into.
+    // For the parts that the bounds reach into.
     void raise(const GeodeticBin& met) {
         const bool isAround = met.empty() || met.isFullCircle();
         const double top = met.empty() ? kInfinity : met.altitude().upper;
         const Interval &latitude = _plates._latitude, &longitude = _plates._longitude;
-        forEachQuarter(latitude, longitude, met.empty() ? latitude : met.latitude(),
-                       isAround ? longitude : met.longitude(),
-                       [&](std::size_t quarter) { _high[quarter] = std::max(_high[quarter], top); });
+        forEachPart(latitude, longitude, met.empty() ? latitude : met.latitude(),
+                    isAround ? longitude : met.longitude(),
+                    [&](std::size_t part) { _high[part] = std::max(_high[part], top); });
     }
 
     void addTriangle(const Corners& c) {
-        // an end of a line, which may run through all quarters
+        // an end of a line, which may run through all parts
         const bool isPoint = c[0] == c[1] && c[1] == c[2];
         if (isPoint) {
             for (double& high : _high) high = std::max(high, _vertices[c[0]].altitude);
@@ -158,7 +160,7 @@ private:
     const double _radius;  // no larger than a radius of curvature at any point of the mesh
     std::vector<Vertex> _vertices;
     std::array<double, kNumbers> _low;
-    std::array<double, 4> _high;  // of the quarters
+    std::array<double, kParts> _high;
 };
 
 GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
@@ -198,7 +200,7 @@ double GroundPlates::narrowest() const noexcept {
 }
 
 // Rounds lower bounds down to 16 bits, and upper bounds up. Minus infinity: not known.
-void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::array<double, 4>& high,
+void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::array<double, kParts>& high,
                           double margin) noexcept {
     // more than the error of altitudes
     const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
@@ -222,9 +224,9 @@ void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::ar
     for (std::size_t i = 0; i < high.size(); ++i) raise(i, high[i] + room);
 }
 
-// Raises the upper bound of a quarter to an altitude at least.
-void GroundPlates::raise(std::size_t quarter, double altitude) noexcept {
-    std::uint16_t& code = _most[quarter];
+// Raises the upper bound of a part to an altitude at least.
+void GroundPlates::raise(std::size_t part, double altitude) noexcept {
+    std::uint16_t& code = _most[part];
     if (code == kUnknown || altitude <= decoded(code)) return;
     const double next = std::ceil((altitude - _base) / _step);
     if (!(next < kLastCode)) {
@@ -245,7 +247,7 @@ double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t colum
     return code == kUnknown ? -kInfinity : decoded(code);
 }
 
-// Whether skirts stay in the quarters that their upper edges count for. Source: doc/theory/occlusion.md, section 3,
+// Whether skirts stay in the parts that their upper edges count for. Source: doc/theory/occlusion.md, section 3,
 // "Tops".
 bool GroundPlates::mayHang(double skirt) const noexcept {
     const double slender = _latitude.width() / std::max(_latitude.width(), _longitude.width());
@@ -253,28 +255,23 @@ bool GroundPlates::mayHang(double skirt) const noexcept {
     return skirt >= 0.0 && skirt <= deepest;
 }
 
-bool GroundPlates::hasQuartersOf(const GeodeticBin& bin) const noexcept {
-    const auto isMiddle = [](const Interval& extents, const Interval& ofBin) {
-        return std::abs(ofBin.middle() - extents.middle()) <= 0.25 * kRoomOfQuarter * extents.width();
+// Whether the inner borders of the bin's parts are near those of the mesh's.
+bool GroundPlates::hasPartsOf(const GeodeticBin& bin) const noexcept {
+    const auto areNear = [](const Interval& extents, const Interval& ofBin) {
+        const double aside = std::abs(ofBin.middle() - extents.middle());
+        return aside + 0.25 * std::abs(ofBin.width() - extents.width()) <= 0.25 * kRoomOfPart * extents.width();
     };
-    return isMiddle(_latitude, bin.latitude()) && isMiddle(_longitude, bin.longitude());
+    return areNear(_latitude, bin.latitude()) && areNear(_longitude, bin.longitude());
 }
 
-double GroundPlates::most(std::size_t quarter, const GeodeticBin& bin) const noexcept {
-    return _most[quarter] != kUnknown && hasQuartersOf(bin) ? decoded(_most[quarter]) : kInfinity;
+double GroundPlates::most(std::size_t part, const GeodeticBin& bin) const noexcept {
+    return _most[part] != kUnknown && hasPartsOf(bin) ? decoded(_most[part]) : kInfinity;
 }
 
-bool GroundPlates::lowerTops(const GeodeticBin& bin, std::array<BinHull, 4>& quarters) const noexcept {
-    if (!hasQuartersOf(bin)) return false;
-    const auto [low, high] = bin.altitude();
-    bool isLowered = false;
-    for (std::size_t quarter = 0; quarter < quarters.size(); ++quarter) {
-        const double top = decoded(_most[quarter]);
-        if (_most[quarter] == kUnknown || top >= high) continue;
-        quarters[quarter].lowerTop(std::max(top - low, 0.0) / (high - low));
-        isLowered = true;
-    }
-    return isLowered;
+double GroundPlates::mostOfQuarter(std::size_t quarter, const GeodeticBin& bin) const noexcept {
+    double highest = -kInfinity;
+    for (std::size_t part = 4 * quarter; part < 4 * quarter + 4; ++part) highest = std::max(highest, most(part, bin));
+    return highest;
 }
 
 // Whether columns keep within the rims of a grid's cells.
@@ -302,8 +299,9 @@ namespace {
 struct QuarterCells {
     static constexpr std::size_t kCount = 16 + 4 + 1 + 1;
     // vectors may begin at any cell
-    std::array<double, kCount + kernels::kMostLanes> south{}, north{}, west{}, east{};
+    std::array<double, kCount> south{}, north{}, west{}, east{};
     std::array<std::size_t, kCount> number{};
+    std::array<std::size_t, kCount> above{};  // the cell of the next coarser grid that holds it; the last has none
 
     constexpr explicit QuarterCells(std::size_t quarter) {
         std::size_t i = 0;
@@ -317,6 +315,7 @@ struct QuarterCells {
                 south[i] = share(row, kRim), north[i] = share(row, 1.0 - kRim);
                 west[i] = share(column, kRim), east[i] = share(column, 1.0 - kRim);
                 number[i] = numberOf(cells, row, column);
+                above[i] = first(cells / 2) + (cells > 2 ? k / here / 2 * (here / 2) + k % here / 2 : 0);
             }
         }
     }
@@ -329,27 +328,31 @@ constexpr std::array<QuarterCells, 4> kQuarters{QuarterCells(0), QuarterCells(1)
 
 }  // namespace
 
-void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth,
+void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, double worth,
                            const InverseFrame& frame, EarthColumns& columns) const noexcept {
     const QuarterCells& cells = kQuarters[quarter];
-    const std::size_t first = QuarterCells::first(finest);
     columns.size = 0;
-    if (!(depth >= 0.0 && depth < shallowest())) return;
-    std::array<double, EarthColumns::kMost> high{};
-    for (std::size_t grid = finest; grid >= coarsest; grid /= 2) {
+    const double farthest = shallowest();
+    if (!(depth >= 0.0 && depth < farthest)) return;
+    std::array<double, QuarterCells::kCount> altitude{};  // minus infinity: not known
+    std::array<double, EarthColumns::kMost> south{}, north{}, west{}, east{}, high{};
+    for (std::size_t grid = coarsest; grid <= finest; grid *= 2) {
         const bool isFit = (_fitting & grid) != 0;
-        for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i, ++columns.size) {
+        for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i) {
             const std::uint16_t code = _least[cells.number[i]];
-            const double altitude = decoded(code);
-            const bool isKnown = isFit && code != kUnknown && std::abs(altitude) < shallowest();
-            high[columns.size] = isKnown ? altitude : std::numeric_limits<double>::quiet_NaN();
+            const bool isKnown = isFit && code != kUnknown && std::abs(decoded(code)) < farthest;
+            altitude[i] = isKnown ? decoded(code) : -kInfinity;
+            if (grid > coarsest && !(altitude[i] > altitude[cells.above[i]] + worth)) continue;
+            south[columns.size] = cells.south[i], north[columns.size] = cells.north[i];
+            west[columns.size] = cells.west[i], east[columns.size] = cells.east[i];
+            high[columns.size] = isKnown ? altitude[i] : std::numeric_limits<double>::quiet_NaN();
             columns.error[columns.size] =
                 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns.size]) + depth);
+            ++columns.size;
         }
     }
     kernels::activeOcclusion.columns(cellGround(_ellipsoid, _latitude, _longitude, _middle, depth, frame),
-                                     {cells.south.data() + first, cells.north.data() + first, cells.west.data() + first,
-                                      cells.east.data() + first, high.data(), columns.size},
+                                     {south.data(), north.data(), west.data(), east.data(), high.data(), columns.size},
                                      columns.corners.data(), EarthColumns::kMost);
 }
 

@@ -60,21 +60,28 @@ struct CellRange {
             static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
 }
 
-/// What comes nearer to a quarter of the extents than this share of their width counts for it.
-inline constexpr double kRoomOfQuarter = 0.06;
+/// What comes nearer to a part of the extents than this share of their width counts for it.
+inline constexpr double kRoomOfPart = 0.06;
 
-/// Calls visit(quarter) for each quarter of the extents that what lies between these latitudes and longitudes counts
-/// for. Quarters are numbered as BinBody::quarters() does; they have no outer ends.
+/// Calls visit(part) for each part of the extents that what lies between these latitudes and longitudes counts for.
+/// They are numbered as those of GroundPlates, and have no outer ends.
 template <class Visit>
-void forEachQuarter(const Interval& latitude, const Interval& longitude, const Interval& metLatitude,
-                    const Interval& metLongitude, Visit&& visit) {
-    const auto halves = [](const Interval& extents, const Interval& met) {
-        const double room = kRoomOfQuarter * extents.width();
-        return std::array<bool, 2>{met.lower <= extents.middle() + room, met.upper >= extents.middle() - room};
+void forEachPart(const Interval& latitude, const Interval& longitude, const Interval& metLatitude,
+                 const Interval& metLongitude, Visit&& visit) {
+    const auto metStrips = [](const Interval& extents, const Interval& met) {
+        const double room = kRoomOfPart * extents.width(), quarter = 0.25 * extents.width();
+        std::array<bool, 4> areMet;
+        for (std::size_t i = 0; i < areMet.size(); ++i) {
+            const double from = extents.lower + quarter * static_cast<double>(i);
+            const bool isBelow = i + 1 < areMet.size() && met.lower > from + quarter + room;
+            areMet[i] = !isBelow && !(i > 0 && met.upper < from - room);
+        }
+        return areMet;
     };
-    const std::array<bool, 2> rows = halves(latitude, metLatitude), columns = halves(longitude, metLongitude);
-    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        if (rows[quarter / 2] && columns[quarter % 2]) visit(quarter);
+    const std::array<bool, 4> rows = metStrips(latitude, metLatitude), columns = metStrips(longitude, metLongitude);
+    for (std::size_t part = 0; part < rows.size() * columns.size(); ++part) {
+        const std::size_t quarter = part / 4, within = part % 4;
+        if (rows[quarter / 2 * 2 + within / 2] && columns[quarter % 2 * 2 + within % 2]) visit(part);
     }
 }
 

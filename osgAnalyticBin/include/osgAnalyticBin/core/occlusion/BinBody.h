@@ -28,8 +28,9 @@ struct BinHull {
     [[nodiscard]] glm::dvec3 corner(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
     /// Sets a corner.
     void setCorner(std::size_t i, const glm::dvec3& at) noexcept { x[i] = at.x, y[i] = at.y, z[i] = at.z; }
-    /// Leaves out what is above `share` of the bin's height. Requires: 0 <= share <= 1.
-    void lowerTop(double share) noexcept;
+    /// Leaves out what is above `top`, but for the bin's floor. `altitude`: of the bin. Requires: top <=
+    /// altitude.upper.
+    void lowerTop(double top, const Interval& altitude) noexcept;
 };
 
 /// A ball, in metres, in the same coordinates.

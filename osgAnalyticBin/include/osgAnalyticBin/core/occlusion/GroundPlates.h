@@ -8,7 +8,6 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
-#include <osgAnalyticBin/core/occlusion/BinBody.h>
 
 #include <glm/vec3.hpp>
 
@@ -38,11 +37,16 @@ struct EarthColumns {
 /// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
 /// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
 /// parallels, and for triangles of the next cell whose chords cross the common edge.
-/// An upper bound for each quarter of the tile tells how far up its mesh reaches there.
-/// Memory: 298 bytes, 16 bits for each bound.
+/// An upper bound for each of 16 parts of the tile tells how far up its mesh reaches there.
+/// Memory: 322 bytes, 16 bits for each bound.
 /// Source: doc/theory/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
+    /// Cells a side of the finest grid.
+    static constexpr std::size_t kFinest = 8;
+    /// The quarters of the quarters: part 4 q + p is quarter p of quarter q, both numbered as BinBody::quarters() does.
+    static constexpr std::size_t kParts = 16;
+
     /// Nothing is known.
     GroundPlates() noexcept;
 
@@ -69,26 +73,26 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// Metres: the mesh and its skirts are nowhere higher in a quarter of `bin`, which holds them. Quarters are
-    /// numbered as BinBody::quarters() does. Infinity: not known, or the middle of the bin is not that of the mesh.
-    /// Guarantee: tests: GroundPlates.TopsAreAbove*. Requires: quarter < 4. Source: doc/theory/occlusion.md, section 3.
-    [[nodiscard]] double most(std::size_t quarter, const GeodeticBin& bin) const noexcept;
+    /// Metres: the mesh and its skirts are nowhere higher in a part of `bin`, which holds them. Infinity: not known, or
+    /// the bin has other parts than the mesh. Guarantee: tests: GroundPlates.TopsAreAbove*. Requires: part < kParts.
+    /// Source: doc/theory/occlusion.md, section 3.
+    [[nodiscard]] double most(std::size_t part, const GeodeticBin& bin) const noexcept;
+    /// The same of the four parts of a quarter. Requires: quarter < 4.
+    [[nodiscard]] double mostOfQuarter(std::size_t quarter, const GeodeticBin& bin) const noexcept;
 
-    /// Leaves out of the bodies of the bin's quarters what is higher than most(). Requires: a bin as there.
-    /// Returns: whether one was lowered.
-    bool lowerTops(const GeodeticBin& bin, std::array<BinHull, 4>& quarters) const noexcept;
-
-    /// Makes a column of earth, `depth` metres deep, for each cell in one quarter of the tile, of the grids of `finest`
-    /// cells a side to `coarsest`, row by row, in the coordinates of `frame`. Quarters are numbered as
-    /// BinBody::quarters() does. The single cell of the coarsest grid belongs to all quarters.
+    /// Makes a column of earth, `depth` metres deep, for each cell in one quarter of the tile, of the grids of
+    /// `coarsest` cells a side to `finest`, row by row, in the coordinates of `frame`. Quarters are numbered as
+    /// BinBody::quarters() does. The single cell of the coarsest grid belongs to all quarters. Cells of the other grids
+    /// are left out unless they are higher, by more than `worth` metres, than the cell of the next coarser grid that
+    /// holds them.
     /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
     /// tests: GroundPlates.ColumnsLieBelowTheMesh*. Corners are where their latitude, longitude and altitude are, up to
     /// the error; test: GroundPlates.CornersOfColumnsAreWrongByTheirErrorAtMost. Nothing is known of cells too wide for
     /// the rim: with angles in radians, where the square of the width in longitude exceeds about an eleventh of the
     /// width in latitude; nor of tiles wider than a radian.
     /// Requires: `finest` and `coarsest` as in least(). Cost: a few nanoseconds a column.
-    void columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, const InverseFrame& frame,
-                 EarthColumns& columns) const noexcept;
+    void columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, double worth,
+                 const InverseFrame& frame, EarthColumns& columns) const noexcept;
 
 private:
     [[nodiscard]] bool fitsColumns(std::size_t cells) const noexcept;
@@ -103,10 +107,11 @@ private:
     [[nodiscard]] bool mayStandBeside(double margin) const noexcept;
     [[nodiscard]] double narrowest() const noexcept;
     [[nodiscard]] bool mayHang(double skirt) const noexcept;
-    [[nodiscard]] bool hasQuartersOf(const GeodeticBin& bin) const noexcept;
-    // `high`: of the quarters, infinity where not known.
-    void encode(const std::array<double, kNumbers>& low, const std::array<double, 4>& high, double margin) noexcept;
-    void raise(std::size_t quarter, double altitude) noexcept;
+    [[nodiscard]] bool hasPartsOf(const GeodeticBin& bin) const noexcept;
+    // `high`: of the parts, infinity where not known.
+    void encode(const std::array<double, kNumbers>& low, const std::array<double, kParts>& high,
+                double margin) noexcept;
+    void raise(std::size_t part, double altitude) noexcept;
 
     [[nodiscard]] double decoded(std::uint16_t code) const noexcept {
         return _base + _step * static_cast<double>(code);
@@ -118,7 +123,7 @@ private:
     double _base = 0.0, _step = 0.0;             // of the codes
     std::uint8_t _fitting = 0;                   // the grids, by their cells a side, whose cells have columns
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
-    std::array<std::uint16_t, 4> _most{};        // of the quarters; 0: not known
+    std::array<std::uint16_t, kParts> _most{};   // 0: not known
 };
 
 }  // namespace osgAnalyticBin::core
