@@ -170,20 +170,23 @@ TEST(GroundPlates, TopsAreAboveLines) {
     EXPECT_GT(known, 1200);
 }
 
+// The room is 0.06 of the width: one cell of 16 a side, and two of 20.
 TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
     Random random(1735);
     const Ellipsoid earth = wgs84();
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     for (int trial = 0; trial < 20; ++trial) {
-        constexpr std::uint32_t kCells = 16;
-        const EcefMesh mesh = gridMesh(random, earth, extents, kCells);
+        const std::uint32_t cells = trial % 2 == 0 ? 16 : 20, beyond = trial % 2 == 0 ? 1 : 2;
+        const EcefMesh mesh = gridMesh(random, earth, extents, cells);
         const GroundPlates plates(earth, mesh, extents);
         for (std::uint32_t part = 0; part < GroundPlates::kParts; ++part) {
+            const std::uint32_t south = part / 8 * 2 + part / 2 % 2, west = part / 4 % 2 * 2 + part % 2;
+            const auto first = [&](std::uint32_t strip) { return std::max(cells / 4 * strip, beyond) - beyond; };
+            const auto last = [&](std::uint32_t strip) { return std::min(cells / 4 * (strip + 1) + beyond, cells); };
             double highest = -HUGE_VAL;
-            const std::uint32_t south = 4 * (part / 8 * 2 + part / 2 % 2), west = 4 * (part / 4 % 2 * 2 + part % 2);
-            for (std::uint32_t row = south - std::min(south, 1U); row <= std::min(south + 5, kCells); ++row) {
-                for (std::uint32_t column = west - std::min(west, 1U); column <= std::min(west + 5, kCells); ++column)
-                    highest = std::max(highest, earth.toGeodetic(mesh.vertex(row * (kCells + 1) + column)).altitude);
+            for (std::uint32_t row = first(south); row <= last(south); ++row) {
+                for (std::uint32_t column = first(west); column <= last(west); ++column)
+                    highest = std::max(highest, earth.toGeodetic(mesh.vertex(row * (cells + 1) + column)).altitude);
             }
             EXPECT_NEAR(plates.most(part, extents), highest, 1e-3 + 2.0 * 2300.0 / 65533.0);
         }

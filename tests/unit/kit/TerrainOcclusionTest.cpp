@@ -86,6 +86,32 @@ TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
     EXPECT_TRUE(globe.drawsFarTile());
 }
 
+// A peak in the middle of one of 4 x 4 parts of the mesh behind the ridge.
+TEST(TerrainOcclusion, HidesAMeshByTheHeightOfEachPart) {
+    for (unsigned int part = 0; part < 16; ++part) {
+        for (const double height : {300.0, 9000.0}) {
+            RidgeGlobe globe(3500.0);
+            constexpr unsigned int kPostsASide = 33;
+            const osg::ref_ptr<osg::MatrixTransform> mesh =
+                makeMeshTile(extentsDeg(0.0, 0.2, 0.8, 1.0), 0.0, kPostsASide);
+            auto& geometry = static_cast<osg::Geometry&>(*mesh->getChild(0)->asGroup()->getChild(0));
+            auto& vertices = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
+            osg::Vec3& peak = vertices[(8 * (part / 4) + 4) * kPostsASide + 8 * (part % 4) + 4];
+            osg::Vec3d up = osg::Vec3d(peak) * mesh->getMatrix();
+            up.normalize();
+            peak += up * height;
+            vertices.dirty();
+            geometry.dirtyBound();
+            osg::PagedLOD& far = *globe.row[4];
+            far.setChild(0, mesh);
+            far.setRange(0, 0.0f, 1e10f);
+            far.setRange(1, 0.0f, 0.0f);
+            installBins(*globe.root, withOcclusion());
+            EXPECT_EQ(globe.drawsFarTile(), height > 3500.0) << "part " << part;
+        }
+    }
+}
+
 // Whether a tile behind the ridge, no higher than 500 m, is drawn with what is in a file that adds to its mesh.
 bool drawsBehindRidge(const osg::ref_ptr<osg::Node>& content) {
     RidgeGlobe globe;
