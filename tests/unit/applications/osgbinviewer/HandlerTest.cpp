@@ -380,10 +380,10 @@ TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {
         recorder->setRecording(false);
     }
     const std::string table = _folder.path() + "/poses.csv";
-    const test::Outcome bench =
-        test::runStock(test::quoted(BENCH_FILE) + ' ' + test::quoted(_file) + " --path " + test::quoted(file) +
-                           " --methods quadratic+horizon+edges --repeats 1 --size 128x128 --csv " + test::quoted(table),
-                       test::Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
+    const test::Outcome bench = test::runStock(
+        test::quoted(BENCH_FILE) + ' ' + test::quoted(_file) + " --path " + test::quoted(file) +
+            " --methods quadratic+horizon+edges --repeats 1 --flush 0 --size 128x128 --csv " + test::quoted(table),
+        test::Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
     ASSERT_EQ(bench.code, 0) << bench.text;
     std::ifstream input(table);
     const auto figures = flight::readCsv(input, table);
