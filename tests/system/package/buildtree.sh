@@ -27,8 +27,10 @@ quietly() { # runs a command and shows what it said only when it fails
 rm -rf "$scratch"
 mkdir -p "$scratch"
 
+# viewer brings kit with it
 echo "== find_package with the programs on PATH"
-PATH="$build/bin:$PATH" quietly cmake -S "$source/tests/system/consumer" -B "$scratch/path" -G Ninja
+PATH="$build/bin:$PATH" quietly cmake -S "$source/tests/system/consumer" -B "$scratch/path" -G Ninja \
+    "-DCONSUMER_COMPONENTS=core;viewer;mappings"
 grep -q "osgAnalyticBin_DIR:PATH=$build/" "$scratch/path/CMakeCache.txt" || fail "another package was found"
 quietly cmake --build "$scratch/path"
 ctest --test-dir "$scratch/path" --output-on-failure --no-tests=error
