@@ -25,7 +25,7 @@ using hull::FrustumHull;
 class Box {
 public:
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
-    /// the margin of it; tests: BoxBins.NeverContradictASample. A plane with NaN is Straddling.
+    /// the margin of it; tests: HullSoundness.HasNoFalseVerdict. A plane with NaN is Straddling.
     [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
     /// How many faces a box has.

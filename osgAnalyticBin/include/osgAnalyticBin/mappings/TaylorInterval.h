@@ -19,7 +19,7 @@ namespace osgAnalyticBin::core {
 /// cannot be enclosed does not compile.
 /// Source: doc/theory/mappings.md, section 3.
 /// Guarantee: coefficient i holds the derivative by monomial i, divided by the monomial's factorials, at every position
-/// in the ranges of the variables; tests: TaylorInterval.*.
+/// in the ranges of the variables; tests: AutodiffMapping.*.
 class TaylorInterval final {
 public:
     /// Monomials of degree 0; 1: u, v, w; 2: uu, vv, ww, uv, uw, vw; 3: uuu, vvv, www, uuv, uuw, uvv, vvw, uww, vww,

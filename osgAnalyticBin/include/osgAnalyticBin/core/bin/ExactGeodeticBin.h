@@ -32,7 +32,7 @@ public:
     explicit ExactGeodeticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
-    /// the margin of it; tests: ExactGeodeticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict. Requires:
+    /// the margin of it; tests: Soundness.HasNoFalseVerdict. Requires:
     /// plane.normal of unit length to 1e-9. A plane with NaN is Straddling. Cost: four multiplications for most planes
     /// (a sphere), about 35 and at most six square roots beside the bin.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;

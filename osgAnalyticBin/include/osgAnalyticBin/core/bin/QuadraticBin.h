@@ -28,7 +28,7 @@ public:
     explicit QuadraticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
-    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict.
+    /// within the margin of f(x); tests: Soundness.HasNoFalseVerdict.
     /// Requires: plane.normal of unit length to 1e-9. A plane with NaN is Straddling.
     /// Cost: four multiplications for most planes (a sphere), about 60 beside the bin (intervals), some 300 where only
     /// the exact range tells.

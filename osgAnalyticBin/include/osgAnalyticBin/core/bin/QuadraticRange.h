@@ -25,7 +25,7 @@ struct Quadratic {
 /// The exact range of q over the unit box: all vertices, edges, faces and the interior, each by its own stationary
 /// point. The nine points of [JJ] are not enough: an extremum may lie on an edge or a face.
 /// Guarantee: both ends are attained values, and the true range exceeds them by at most 64 epsilon times the sum of the
-/// magnitudes of q's coefficients; tests: QuadraticRange.MatchesDenseSampling.
+/// magnitudes of q's coefficients; tests: QuadraticRange.MatchesAllStationaryPointsInLongDouble.
 /// Source: doc/theory/derivation.md, section 4.
 [[nodiscard]] Interval exactRange(const Quadratic& q) noexcept;
 

@@ -12,7 +12,7 @@ namespace osgAnalyticBin::core {
 /// between two posts of one parallel runs poleward of it.
 /// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle added, up to 1.6e-14 of the
 /// larger radius (1e-7 m on the earth), or is empty, which means not known: for a mesh that may reach deeper than the
-/// ellipsoid's smallest radius of curvature; tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle, PlanetMeshes.*.
+/// ellipsoid's smallest radius of curvature; tests: PlanetMeshes.ThoroughBoundsHoldEveryPoint.
 /// A mesh that crosses the meridian opposite the reference longitude, or the axis, gets the full circle.
 /// Source: doc/theory/derivation.md, section 5.
 class GeodeticMeshBounds final {
