@@ -3,10 +3,10 @@
 
 #include "Memory.h"
 
-#include <osg/NodeVisitor>
-
 #include <algorithm>
 #include <cstring>
+#include <set>
+#include <support/VisitNodes.h>
 #include <typeinfo>
 
 namespace osgAnalyticBin::test {
@@ -17,39 +17,20 @@ bool isOurs(const osg::Object& object) {
     return std::strstr(typeid(object).name(), "osgAnalyticBin") != nullptr;
 }
 
-class Finder : public osg::NodeVisitor {
-public:
-    Finder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    using osg::NodeVisitor::apply;
-
-    void apply(osg::Node& node) override {
-        addChain(node.getCullCallback());
-        addChain(node.getUpdateCallback());
-        traverse(node);
-    }
-
-    std::vector<osg::Object*> found;
-
-private:
-    void addChain(osg::Callback* first) {
-        for (osg::Callback* at = first; at; at = at->getNestedCallback()) {
-            if (isOurs(*at)) found.push_back(at);
-        }
-    }
-};
-
 }  // namespace
 
 std::size_t KitObjects::note(osg::Node& scene) {
-    Finder finder;
-    scene.accept(finder);
-    std::sort(finder.found.begin(), finder.found.end());
-    finder.found.erase(std::unique(finder.found.begin(), finder.found.end()), finder.found.end());
-    for (osg::Object* object : finder.found) {
+    std::set<osg::Object*> found;
+    visitNodes(scene, [&](osg::Node& node) {
+        for (osg::Callback* at : {node.getCullCallback(), node.getUpdateCallback()})
+            for (; at; at = at->getNestedCallback())
+                if (isOurs(*at)) found.insert(at);
+    });
+    for (osg::Object* object : found) {
         osg::observer_ptr<osg::Object>& known = _known[object];
         if (!known.valid()) known = object;
     }
-    return finder.found.size();
+    return found.size();
 }
 
 std::size_t KitObjects::alive() {

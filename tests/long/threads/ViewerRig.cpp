@@ -12,6 +12,8 @@
 #include <osgViewer/CompositeViewer>
 #include <osgViewer/Viewer>
 
+#include <support/VisitNodes.h>
+
 namespace osgAnalyticBin::test {
 
 namespace {
@@ -87,17 +89,6 @@ private:
     osgTerrain::Terrain* _terrain = nullptr;
 };
 
-class PagedCounter : public osg::NodeVisitor {
-public:
-    PagedCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    using osg::NodeVisitor::apply;
-    void apply(osg::PagedLOD& node) override {
-        if (node.getNumChildren() > 1) ++count;
-        traverse(node);
-    }
-    std::size_t count = 0;
-};
-
 }  // namespace
 
 const char* nameOf(Threading threading) {
@@ -166,9 +157,12 @@ osg::Matrixd viewFrom(double latitude, double longitude, double altitude, double
 }
 
 std::size_t pagedIn(osg::Node& scene) {
-    PagedCounter counter;
-    scene.accept(counter);
-    return counter.count;
+    std::size_t count = 0;
+    visitNodes(scene, [&](osg::Node& node) {
+        const auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        if (paged && paged->getNumChildren() > 1) ++count;
+    });
+    return count;
 }
 
 }  // namespace osgAnalyticBin::test

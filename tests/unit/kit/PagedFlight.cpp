@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <support/VisitNodes.h>
 #include <thread>
 
 namespace osgAnalyticBin::test {
@@ -114,20 +115,13 @@ const std::multiset<std::string>& PagedFlight::drawn() const {
 }
 
 std::size_t loadedTiles(osg::Node& scene) {
-    class Counter : public osg::NodeVisitor {
-    public:
-        Counter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        using osg::NodeVisitor::apply;
-        void apply(osg::PagedLOD& node) override {
-            for (unsigned int i = 0; i < std::min(node.getNumChildren(), node.getNumFileNames()); ++i)
-                if (!node.getFileName(i).empty()) ++count;
-            traverse(node);
-        }
-        std::size_t count = 0;
-    };
-    Counter counter;
-    scene.accept(counter);
-    return counter.count;
+    std::size_t count = 0;
+    visitNodes(scene, [&](osg::Node& node) {
+        const auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < std::min(paged->getNumChildren(), paged->getNumFileNames()); ++i)
+            if (!paged->getFileName(i).empty()) ++count;
+    });
+    return count;
 }
 
 }  // namespace osgAnalyticBin::test

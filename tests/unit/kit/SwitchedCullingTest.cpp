@@ -16,6 +16,7 @@
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
+#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -35,23 +36,21 @@ CullView look(double side) {
     return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
 }
 
-// The nodes of a scene with culling switched off.
-class InactiveNodes : public osg::NodeVisitor {
-public:
-    InactiveNodes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        if (!node.getCullingActive()) nodes.insert(&node);
-        if (node.getUserDataContainer()) values += node.getUserDataContainer()->getNumUserObjects();
-        traverse(node);
-    }
-    [[nodiscard]] static InactiveNodes of(osg::Node& scene) {
-        InactiveNodes found;
-        scene.accept(found);
-        return found;
-    }
+std::set<const osg::Node*> inactiveNodes(osg::Node& scene) {
     std::set<const osg::Node*> nodes;
+    test::visitNodes(scene, [&](osg::Node& node) {
+        if (!node.getCullingActive()) nodes.insert(&node);
+    });
+    return nodes;
+}
+
+unsigned int valuesIn(osg::Node& scene) {
     unsigned int values = 0;
-};
+    test::visitNodes(scene, [&](osg::Node& node) {
+        if (node.getUserDataContainer()) values += node.getUserDataContainer()->getNumUserObjects();
+    });
+    return values;
+}
 
 class SwitchedCulling : public ::testing::Test {
 protected:
@@ -169,15 +168,14 @@ TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
     const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
     osg::Node& own = *scene->asGroup()->getChild(3)->asGroup()->getChild(0);
     own.setCullingActive(false);  // by the database itself
-    const unsigned int values = InactiveNodes::of(*scene).values;
+    const unsigned int values = valuesIn(*scene);
     installBins(*scene, by(Method::None));
     for (const Method method : {Method::None, Method::Quadratic, Method::None, Method::Sphere}) {
-        EXPECT_EQ(InactiveNodes::of(*scene).nodes, std::set<const osg::Node*>{&own});
+        EXPECT_EQ(inactiveNodes(*scene), std::set<const osg::Node*>{&own});
         setCullOptions(*scene, by(method));
     }
-    const InactiveNodes after = InactiveNodes::of(*scene);
-    EXPECT_EQ(after.nodes, std::set<const osg::Node*>{&own});
-    EXPECT_EQ(after.values, values);
+    EXPECT_EQ(inactiveNodes(*scene), std::set<const osg::Node*>{&own});
+    EXPECT_EQ(valuesIn(*scene), values);
     removeBins(*scene);
     EXPECT_EQ(scene->getCullCallback(), nullptr);
 }

@@ -16,6 +16,7 @@
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
+#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -26,20 +27,13 @@ using test::PagedFlight;
 
 // The coarse and the finer tiles of which all have their bins.
 std::size_t tilesWithBins(osg::Node& scene) {
-    class Counter : public osg::NodeVisitor {
-    public:
-        Counter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        using osg::NodeVisitor::apply;
-        void apply(osg::PagedLOD& node) override {
-            EXPECT_NE(dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()), nullptr);
-            ++count;
-            traverse(node);
-        }
-        std::size_t count = 0;
-    };
-    Counter counter;
-    scene.accept(counter);
-    return counter.count;
+    std::size_t count = 0;
+    test::visitNodes(scene, [&](osg::Node& node) {
+        if (!dynamic_cast<osg::PagedLOD*>(&node)) return;
+        EXPECT_NE(dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()), nullptr);
+        ++count;
+    });
+    return count;
 }
 
 class Archive : public ::testing::Test {

@@ -16,6 +16,7 @@
 #include <set>
 #include <sstream>
 #include <support/Random.h>
+#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -140,10 +141,9 @@ TEST_F(FalseSpheres, AreAllThatIsCulledOtherwiseThanByOsg) {
 }
 
 // Callbacks, culling flags, options and expiry of all nodes, as text.
-class Flags : public osg::NodeVisitor {
-public:
-    Flags() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
+std::string flagsOf(osg::Node& scene) {
+    std::ostringstream text;
+    test::visitNodes(scene, [&](osg::Node& node) {
         text << node.className() << bool(node.getCullCallback()) << bool(node.getUpdateCallback())
              << node.getCullingActive();
         if (auto* const paged = dynamic_cast<osg::PagedLOD*>(&node)) {
@@ -151,15 +151,8 @@ public:
             for (unsigned int i = 0; i < paged->getNumMinimumExpiryTimes(); ++i) text << paged->getMinimumExpiryTime(i);
         }
         text << '\n';
-        traverse(node);
-    }
-    std::ostringstream text;
-};
-
-std::string flagsOf(osg::Node& node) {
-    Flags flags;
-    node.accept(flags);
-    return flags.text.str();
+    });
+    return text.str();
 }
 
 TEST_F(FalseSpheres, AreAsBeforeWhenBinsAreTakenOff) {

@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <osg/Group>
 #include <osg/Image>
-#include <osg/NodeVisitor>
 #include <osg/ProxyNode>
 #include <osg/Texture2D>
 #include <osgDB/Options>
@@ -28,6 +27,7 @@
 #include <poll.h>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
+#include <support/VisitNodes.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -110,32 +110,19 @@ osg::ref_ptr<osg::Node> tileWithTexture(const std::string& name) {
 }
 
 const osg::Image* textureOf(osg::Node& scene) {
-    class Finder : public osg::NodeVisitor {
-    public:
-        Finder() : NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        void apply(osg::Node& node) override {
-            auto* const state = node.getStateSet();
-            auto* const texture = state ? state->getTextureAttribute(0, osg::StateAttribute::TEXTURE) : nullptr;
-            if (texture) image = dynamic_cast<osg::Texture2D&>(*texture).getImage();
-            traverse(node);
-        }
-        const osg::Image* image = nullptr;
-    };
-    Finder finder;
-    scene.accept(finder);
-    return finder.image;
+    const osg::Image* image = nullptr;
+    visitNodes(scene, [&](osg::Node& node) {
+        auto* const state = node.getStateSet();
+        auto* const texture = state ? state->getTextureAttribute(0, osg::StateAttribute::TEXTURE) : nullptr;
+        if (texture) image = dynamic_cast<osg::Texture2D&>(*texture).getImage();
+    });
+    return image;
 }
 
 int meshesIn(osg::Node& scene) {
-    class Counter : public osg::NodeVisitor {
-    public:
-        Counter() : NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-        void apply(osg::Drawable&) override { ++count; }
-        int count = 0;
-    };
-    Counter counter;
-    scene.accept(counter);
-    return counter.count;
+    int count = 0;
+    visitNodes(scene, [&](osg::Node& node) { count += node.asDrawable() ? 1 : 0; });
+    return count;
 }
 
 void writePicture(const std::string& path, unsigned char shade) {

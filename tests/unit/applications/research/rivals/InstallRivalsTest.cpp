@@ -16,12 +16,12 @@
 #include <osgDB/ReadFile>
 
 #include <algorithm>
-#include <functional>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <support/View.h>
+#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -117,21 +117,6 @@ TEST(RivalCullCallback, TestsEdgesWhereTold) {
     }
 }
 
-// Visits the nodes that the kit has put bins on.
-class TilesWithBins : public osg::NodeVisitor {
-public:
-    explicit TilesWithBins(std::function<void(osg::Callback*)> visit)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _visit(std::move(visit)) {}
-    void apply(osg::Node& node) override {
-        for (osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback())
-            if (dynamic_cast<AnalyticBinCullCallback*>(at)) _visit(node.getCullCallback());
-        traverse(node);
-    }
-
-private:
-    std::function<void(osg::Callback*)> _visit;
-};
-
 class RivalPlugin : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -166,12 +151,14 @@ TEST_F(RivalPlugin, CullsAlsoWhatIsPagedInLater) {
         ASSERT_TRUE(flight.load(look(side)));
         std::size_t tiles = 0;
         std::size_t byRule = 0;
-        TilesWithBins count([&](osg::Callback* first) {
-            ++tiles;
-            const auto* const rival = dynamic_cast<RivalCullCallback*>(first);
-            byRule += rival ? 1 : 0;
+        test::visitNodes(*scene, [&](osg::Node& node) {
+            osg::Callback* const first = node.getCullCallback();
+            for (osg::Callback* at = first; at; at = at->getNestedCallback()) {
+                if (!dynamic_cast<AnalyticBinCullCallback*>(at)) continue;
+                ++tiles;
+                byRule += dynamic_cast<RivalCullCallback*>(first) ? 1 : 0;
+            }
         });
-        scene->accept(count);
         EXPECT_EQ(byRule, tiles);
         EXPECT_GT(tiles, before + 8) << "nothing was paged in";
         before = tiles;
