@@ -40,28 +40,6 @@ bool meets(const Triangle& t, const osg::Vec3d& from, const osg::Vec3d& along) {
     return at > 0.0 && at < kNearlyThere;
 }
 
-// Clips a polygon in clip coordinates against one side of the picture.
-std::vector<osg::Vec4d> clipped(const std::vector<osg::Vec4d>& polygon, const osg::Vec4d& side) {
-    std::vector<osg::Vec4d> left;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const osg::Vec4d &at = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-        const double here = at * side, there = next * side;
-        if (here >= 0.0) left.push_back(at);
-        if ((here >= 0.0) != (there >= 0.0)) left.push_back(at + (next - at) * (here / (here - there)));
-    }
-    return left;
-}
-
-bool isInPicture(const Triangle& triangle, const osg::Matrixd& projection) {
-    std::vector<osg::Vec4d> polygon;
-    for (const osg::Vec3d& corner : triangle) polygon.push_back(osg::Vec4d(corner, 1.0) * projection);
-    for (const double sign : {-1.0, 1.0}) {
-        polygon = clipped(polygon, {sign, 0.0, 0.0, 1.0});
-        polygon = clipped(polygon, {0.0, sign, 0.0, 1.0});
-    }
-    return !polygon.empty();
-}
-
 }  // namespace
 
 Triangles::Triangles(const osg::Drawable& drawable, const osg::Matrixd& matrix) {
@@ -91,12 +69,6 @@ bool Triangles::block(const osg::Vec3d& from, const osg::Vec3d& to) const {
     if ((from + along * t - center).length2() > radius * radius) return false;
     const auto meetsOne = [&](const Triangle& triangle) { return meets(triangle, from, along); };
     return std::any_of(surface.begin(), surface.end(), meetsOne) || std::any_of(skirts.begin(), skirts.end(), meetsOne);
-}
-
-bool Triangles::areInPicture(const osg::Matrixd& projection) const {
-    const auto isIn = [&](const Triangle& triangle) { return isInPicture(triangle, projection); };
-    return (surface.empty() && skirts.empty()) || std::any_of(surface.begin(), surface.end(), isIn) ||
-           std::any_of(skirts.begin(), skirts.end(), isIn);
 }
 
 }  // namespace osgAnalyticBin::test

@@ -25,9 +25,6 @@ struct Triangles {
 
     /// Whether one of them is met strictly between the ends of a segment.
     [[nodiscard]] bool block(const osg::Vec3d& from, const osg::Vec3d& to) const;
-
-    /// Whether a part of one of them is between the sides of a picture, or there are none, as of lines and points.
-    [[nodiscard]] bool areInPicture(const osg::Matrixd& projection) const;
 };
 
 }  // namespace osgAnalyticBin::test
