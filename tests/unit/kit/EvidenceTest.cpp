@@ -5,6 +5,7 @@
 // application makes of them. More of it, and all states one by one: tests/scenes.
 
 #include "ApplicationGlobe.h"
+#include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -14,6 +15,7 @@
 #include <osg/Texture2D>
 
 #include <utility>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -56,6 +58,51 @@ TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
     EXPECT_TRUE(globe.drawsAntipode());
     update(*globe.root);
     EXPECT_LT(hidden(), before);
+}
+
+// Shows a file with the own mesh of a tile.
+void addTo(osg::PagedLOD& tile, osg::Node* file) {
+    tile.setRange(0, 0.0f, 1e10f);
+    tile.setRange(1, 0.0f, 1e10f);
+    putBelow(tile, file);
+}
+
+void seeThrough(osg::Node& node) {
+    node.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+}
+
+// The own mesh hides alone: the others need not fill its place.
+TEST(AddedLevels, AreDrawnWhateverIsMissingOrSeenThroughAmongThem) {
+    for (int count = 1; count <= 4; ++count) {
+        for (int blended = 0; blended <= count; ++blended) {
+            MeshGlobe globe;
+            const osg::ref_ptr<osg::Group> file = new osg::Group;
+            for (int i = 0; i < count; ++i) {
+                const double south = 22.5 * (i / 2), west = -45.0 + 22.5 * (i % 2);
+                file->addChild(
+                    makePaged(makeMeshTile(extentsDeg(south, south + 22.5, west, west + 22.5), 0.0), "no.osgb"));
+            }
+            if (blended < count) seeThrough(*file->getChild(static_cast<unsigned int>(blended)));
+            addTo(*globe.tiles[19], file);
+            installBins(*globe.root);
+            for (unsigned int i = 0; i < file->getNumChildren(); ++i)
+                EXPECT_TRUE(globe.draws(*file->getChild(i), MeshGlobe::fromAbove(8e6))) << count << blended << i;
+            EXPECT_FALSE(globe.drawsAntipode(8e6)) << count << blended;
+        }
+    }
+}
+
+TEST(AddedLevels, HideWhatIsBehindThemUnlessTheyAreSeenThrough) {
+    for (const bool isBlended : {false, true}) {
+        RidgeGlobe globe(0.0);
+        const osg::ref_ptr<osg::Group> file = new osg::Group;
+        file->addChild(makePaged(makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 8000.0), "no.osgb"));
+        if (isBlended) seeThrough(*file->getChild(0));
+        addTo(*globe.row[2], file);
+        installBins(*globe.root, withOcclusion());
+        EXPECT_EQ(globe.drawsFarTile(), isBlended);
+        EXPECT_TRUE(globe.draws(*file, RidgeGlobe::alongRow())) << isBlended;
+    }
 }
 
 // A texture of the application's own may draw nothing.

@@ -95,7 +95,7 @@ void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCu
     // its place may be empty
     const bool isSeeThrough = installed && installed->isSeeThrough();
     if (_isDoubtful || isSeeThrough || !isSurelyDrawn(node, mayLeaveOut) || !standsAsInstalled(node, bin)) doubt();
-    if (_hasHole) return;
+    if (_hasHole || !_searches) return;
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
     searchTile(node, pagedLod(node), tile);
 }
@@ -121,9 +121,8 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
     bool isOneAwaited = !byDistance;
     for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
         if (!isDue(i)) continue;
-        const bool hadHole = _hasHole;
+        const Scoped searches(_searches, _searches), added(_isAdded, _isAdded || (isOwnShown && isPaged(node, i)));
         if (i < children) searchChild(node, i, tile, byDistance && due == 1);
-        if (isOwnShown && isPaged(node, i)) _hasHole = hadHole;
         isOneAwaited = isOneAwaited || i >= children;
     }
     // the last child stands in for one that is awaited
@@ -136,9 +135,14 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
 
 void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel) {
     if (!isPaged(node, i)) return show(tile, *node.getChild(i), isOnlyLevel);
-    const InstalledTile* const installed = tile.callback.getInstalledTile();
-    if (installed && installed->has(InstalledTile::GapBelow)) doubt();
+    doubtLevelsOf(tile);
     searchNode(*node.getChild(i));
+}
+
+// Of a tile whose levels in files are shown.
+void SelectionWalk::doubtLevelsOf(const Tile& tile) {
+    const InstalledTile* const installed = tile.isCertain || _isAdded ? nullptr : tile.callback.getInstalledTile();
+    if (installed && installed->has(InstalledTile::GapBelow)) doubt();
 }
 
 // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
@@ -158,7 +162,7 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     if (installed && installed->has(InstalledTile::NotFilled)) doubt();
     if (isLeftOutInView(tile, mesh)) doubt();
     if (_search.isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
-    const bool isSure = !_isChoiceUnknown && tile.isFitted;
+    const bool isSure = _searches && !_isChoiceUnknown && tile.isFitted;
     const bool isAll = isOnlyLevel && !(installed && installed->has(InstalledTile::MoreThanMesh));
     _selection.addShown({&tile.callback, &mesh, tile.member, isSure, isAll, tile.isOutOfView, tile.kept, _segment});
     // what a tile draws by itself is in its bin

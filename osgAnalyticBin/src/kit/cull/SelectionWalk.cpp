@@ -210,7 +210,7 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     tile.isCertain = hasBit(siblings.certain, number);
     const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();
     if (_isDoubtful || isSeeThrough || !drawn.hides || mayLeaveOut || !_visitor.validNodeMask(node)) doubt();
-    if (_hasHole) return;
+    if (_hasHole || !(_searches || _keeps)) return;
     if (!_keeps) return searchTile(node, member.paged(), tile);
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
@@ -249,7 +249,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
-        if (!tile.isCertain && tile.callback.getInstalledTile()->has(InstalledTile::GapBelow)) doubt();
+        doubtLevelsOf(tile);
         selectLevel(level, tile.member->wayThrough());
         return true;
     }

@@ -109,12 +109,18 @@ private:
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);
     void searchPaged(osg::PagedLOD& node, const Tile& tile);
     void searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel);
+    void doubtLevelsOf(const Tile& tile);
     [[nodiscard]] bool selectShownLevel(osg::PagedLOD& node, const Tile& tile);
     [[nodiscard]] static core::Interval surfaceOf(const Tile& tile);
     void show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel);
 
     [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way, bool waits = false);
-    void doubt() { _hasHole = _hasHole || _searches; }
+    // Call where something that hides may not be drawn. What adds to a mesh need not hide: it counts no more from there
+    // to the end of the scope, but is walked over to its end.
+    void doubt() {
+        _hasHole = _hasHole || (_searches && !_isAdded);
+        _searches = _searches && !_isAdded;
+    }
     [[nodiscard]] DrawnState stateOf(const osg::Node& node) const;
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
@@ -163,6 +169,7 @@ private:
     bool _isBelowOutOfView = false;          // below a sphere that is out of view
     bool _isChoiceUnknown = false;           // below a choice of levels that may turn out otherwise
     bool _isFinerAwaited = false;            // in a level that stands in for a finer one
+    bool _isAdded = false;                   // in a level that is shown with the own mesh of a tile
 
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;
