@@ -342,6 +342,8 @@ FAULTS = [
     Fault("state: what is sorted by depth has no alpha test", "src/kit/cull/DrawnState.cpp",
           'if (name == "DepthSortedBin") return kHidesNothing;', 'if (name == "DepthSortedBin") return kHarmless;', NODE,
           "SeeThroughTerrain.*"),
+    Fault("state: smooth polygons are drawn within their edges", "src/kit/cull/DrawnState.cpp",
+          "case GL_POLYGON_STIPPLE:", "case GL_POLYGON_STIPPLE: case GL_POLYGON_SMOOTH:", NODE, "HiddenByTerrain.*"),
     Fault("state: classes of the application's page as OSG's does", "src/kit/install/BinInstaller.cpp",
           "if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node))", "if (isPaged && false)", NODE, "HoledGlobe.*"),
     Fault("state: frames stay relative", "src/kit/cull/SelectionEvidence.cpp", "drawn.hides && standsBelowParent(node);",

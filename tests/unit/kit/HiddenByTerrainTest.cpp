@@ -258,6 +258,7 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
              stateOf(model).setAttribute(
                  new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
          }},
+        {"smooth edges", [](auto& model) { stateOf(model).setMode(GL_POLYGON_SMOOTH, osg::StateAttribute::ON); }},
         {"points", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},
         {"lines", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_LINE_STRIP); }},
         {"a draw callback", [](auto& model) { meshOf(model).setDrawCallback(new NoDrawing); }},

@@ -177,7 +177,6 @@ DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
         case GL_BLEND:
         case GL_ALPHA_TEST:
         case GL_POLYGON_STIPPLE:
-        case GL_POLYGON_SMOOTH:
         case GL_COLOR_LOGIC_OP:
         case GL_SCISSOR_TEST:
         case GL_SAMPLE_ALPHA_TO_COVERAGE_ARB:
