@@ -13,7 +13,6 @@
 #include "Picks.h"
 #include "Recorder.h"
 #include "States.h"
-#include "Triangles.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
