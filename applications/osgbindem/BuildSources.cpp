@@ -32,7 +32,7 @@ constexpr const char* kElevation = "elevation ";
 constexpr const char* kImage = "image ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 5;
+constexpr int kFormat = 6;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;

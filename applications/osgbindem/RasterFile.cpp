@@ -172,16 +172,15 @@ Places latticeOf(void* transformer, int steps, double width, double height, doub
     return places;
 }
 
-/// Whether all longitudes of a pole are one place within a raster of so many pixels.
-bool holdsPole(void* transformer, double latitude, int width, int height) {
+/// Where a pole is in pixels. Returns: nullopt where its longitudes are not one place.
+std::optional<std::pair<double, double>> pixelOfPole(void* transformer, double latitude) {
     Places places{{-120.0, 0.0, 120.0}, {latitude, latitude, latitude}, {}};
     places.transform(transformer, true);
     for (std::size_t i = 0; i < 3; ++i) {
-        const bool isWithin = places.isFound[i] != 0 && places.x[i] >= 0.0 && places.x[i] <= width &&
-                              places.y[i] >= 0.0 && places.y[i] <= height;
-        if (!isWithin || std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]) > 1.0) return false;
+        const double apart = std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]);
+        if (places.isFound[i] == 0 || apart > 1.0) return std::nullopt;
     }
-    return true;
+    return std::pair(places.x[0], places.y[0]);
 }
 
 /// The area of a raster of so many pixels, from a lattice of places in it. West > east: none is found.
@@ -189,15 +188,30 @@ RectDeg extentOf(void* transformer, int width, int height) {
     constexpr int kSteps = 64;
     constexpr double kLeastGap = 2.0 * 360.0 / kSteps;  // smaller ones may be between places
     const Places places = latticeOf(transformer, kSteps, width, height);
+    // What is nearest to a pole may lie between them.
+    Places nearest;
+    bool holdsPole = false;
+    for (const double latitude : {90.0, -90.0}) {
+        const auto pole = pixelOfPole(transformer, latitude);
+        if (!pole) continue;
+        nearest.x.push_back(std::clamp(pole->first, 0.0, static_cast<double>(width)));
+        nearest.y.push_back(std::clamp(pole->second, 0.0, static_cast<double>(height)));
+        holdsPole = holdsPole || *pole == std::pair(nearest.x.back(), nearest.y.back());
+    }
+    nearest.transform(transformer, false);
     RectDeg rect{180.0, 90.0, -180.0, -90.0};
     std::vector<double> longitudes;
-    for (std::size_t i = 0; i < places.x.size(); ++i) {
-        if (places.isFound[i] == 0) continue;
-        longitudes.push_back(std::remainder(places.x[i], 360.0));
-        rect.south = std::min(rect.south, places.y[i]);
-        rect.north = std::max(rect.north, places.y[i]);
+    for (const Places& all : {places, nearest}) {
+        for (std::size_t i = 0; i < all.x.size(); ++i) {
+            if (all.isFound[i] == 0) continue;
+            longitudes.push_back(std::remainder(all.x[i], 360.0));
+            rect.south = std::min(rect.south, all.y[i]);
+            rect.north = std::max(rect.north, all.y[i]);
+        }
     }
     if (longitudes.empty()) return rect;
+    // Next to where a map ends, degrees change faster than any lattice tells.
+    if (std::count(places.isFound.begin(), places.isFound.end(), 0) > 0) return {-180.0, -90.0, 180.0, 90.0};
     // The raster lies outside the widest gap.
     std::sort(longitudes.begin(), longitudes.end());
     rect.west = longitudes.front();
@@ -212,16 +226,10 @@ RectDeg extentOf(void* transformer, int width, int height) {
     }
     // The turn is that of the place in the middle.
     const std::size_t middle = places.x.size() / 2;
-    if (places.isFound[middle] != 0) {
-        const double turns = std::round((places.x[middle] - 0.5 * (rect.west + rect.east)) / 360.0);
-        rect.west += 360.0 * turns;
-        rect.east += 360.0 * turns;
-    }
-    const bool holdsNorth = holdsPole(transformer, 90.0, width, height);
-    const bool holdsSouth = holdsPole(transformer, -90.0, width, height);
-    if (holdsNorth) rect.north = 90.0;
-    if (holdsSouth) rect.south = -90.0;
-    if (holdsNorth || holdsSouth || widest < kLeastGap) return {-180.0, rect.south, 180.0, rect.north};
+    const double turns = std::round((places.x[middle] - 0.5 * (rect.west + rect.east)) / 360.0);
+    rect.west += 360.0 * turns;
+    rect.east += 360.0 * turns;
+    if (holdsPole || widest < kLeastGap) return {-180.0, rect.south, 180.0, rect.north};
     return rect;
 }
 
@@ -284,8 +292,9 @@ bool RasterFile::isInDegreesOfGlobe() const {
     const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&_horizontal, &_target));
     if (!way) throw Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
     constexpr double kMost = 0.01;  // pixels
-    for (const double u : {0.0, 0.5, 1.0}) {
-        for (const double v : {0.0, 0.5, 1.0}) {
+    // Latitudes of a sphere and of an ellipsoid differ most halfway between poles and equator.
+    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        for (const double v : {0.0, 0.25, 0.5, 0.75, 1.0}) {
             const double east = _transform[0] + u * _file->GetRasterXSize() * _transform[1];
             const double north = std::clamp(_transform[3] + v * _file->GetRasterYSize() * _transform[5], -90.0, 90.0);
             double x = east;

@@ -124,6 +124,8 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
     add(words, "-ts", {frame.columns, frame.rows});
     if (isElevation(dataset)) {
         for (const char* word : {"-srcnodata", "nan", "-dstnodata", "nan"}) words.AddString(word);
+        // A post's height is that of its place, not the mean around it where the map's pixels are smaller.
+        for (const char* word : {"-wo", "XSCALE=1", "-wo", "YSCALE=1"}) words.AddString(word);
     } else {
         words.AddString("-dstalpha");
     }
