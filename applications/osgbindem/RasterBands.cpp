@@ -24,6 +24,8 @@ namespace {
 // Metres beyond which no terrain of the earth lies, and none of any other body.
 constexpr double kHighestOnEarth = 12000.0;
 constexpr double kHighest = 1e5;
+// The lowest number of 16 bits marks missing heights in any unit. A height that it is by chance is interpolated.
+constexpr double kLowest = -32768.0;
 
 /// How the numbers of a band become metres.
 struct HeightCode {
@@ -32,14 +34,16 @@ struct HeightCode {
     double offset = 0.0;
     /// Numbers beyond are marks for missing heights that the file does not declare.
     double highest = 0.0;
-    /// 0 where heights are missing; nullptr without one.
-    GDALRasterBand* mask = nullptr;
+    /// Each is 0 where heights are missing.
+    std::vector<GDALRasterBand*> masks;
 };
 
 class HeightBand final : public GDALRasterBand {
 public:
     HeightBand(GDALDataset& dataset, GDALRasterBand& numbers, const HeightCode& code)
         : _numbers(numbers), _code(code), _isSingle(numbers.GetRasterDataType() == GDT_Float32) {
+        const char* type = numbers.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
+        _isSignedByte = type != nullptr && EQUAL(type, "SIGNEDBYTE");
         poDS = &dataset;
         nBand = 1;
         eDataType = GDT_Float64;
@@ -75,14 +79,18 @@ protected:
         }
         CPLErr error = _numbers.RasterIO(GF_Read, x, y, width, height, data, columns, rows, GDT_Float64, pixelSpace,
                                          lineSpace, nullptr);
-        std::vector<unsigned char> mask(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 1);
-        if (error == CE_None && _code.mask != nullptr) {
-            error =
-                _code.mask->RasterIO(GF_Read, x, y, width, height, mask.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
+        const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        std::vector<unsigned char> isThere(count, 1);
+        std::vector<unsigned char> part(count);
+        for (GDALRasterBand* mask : _code.masks) {
+            if (error != CE_None) break;
+            error = mask->RasterIO(GF_Read, x, y, width, height, part.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
+            std::transform(part.begin(), part.end(), isThere.begin(), isThere.begin(),
+                           [](unsigned char a, unsigned char b) -> unsigned char { return a != 0 && b != 0 ? 1 : 0; });
         }
         for (int row = 0; error == CE_None && row < rows; ++row) {
             decode(reinterpret_cast<double*>(static_cast<char*>(data) + row * lineSpace),
-                   mask.data() + static_cast<std::ptrdiff_t>(row) * columns, columns);
+                   isThere.data() + static_cast<std::ptrdiff_t>(row) * columns, columns);
         }
         return error;
     }
@@ -90,15 +98,15 @@ protected:
 private:
     static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-    void decode(double* line, const unsigned char* mask, int count) {
+    void decode(double* line, const unsigned char* isThere, int count) {
         const float nodata = static_cast<float>(_code.nodata.value_or(0.0));
         for (int i = 0; i < count; ++i) {
-            const double number = line[i];
+            const double number = _isSignedByte && line[i] > 127.0 ? line[i] - 256.0 : line[i];
             const bool isMissing =
-                mask[i] == 0 ||
+                isThere[i] == 0 ||
                 (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == nodata)));
             const double metres = number * _code.scale + _code.offset;
-            const bool isHeight = std::abs(metres) <= _code.highest;
+            const bool isHeight = std::abs(metres) <= _code.highest && number != kLowest;
             line[i] = isMissing || !isHeight ? kMissing : metres;
             ++_look.posts;
             if (!isMissing && isHeight) continue;
@@ -112,6 +120,7 @@ private:
     GDALRasterBand& _numbers;
     HeightCode _code;
     bool _isSingle;
+    bool _isSignedByte;
     RasterLook _look;
 };
 
@@ -161,12 +170,14 @@ std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpati
     return unit == "m" ? std::optional(1.0) : std::nullopt;
 }
 
-GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& band) {
+std::vector<GDALRasterBand*> masksOf(GDALDataset& dataset, GDALRasterBand& band) {
+    std::vector<GDALRasterBand*> masks;
     for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
         GDALRasterBand* other = dataset.GetRasterBand(i);
-        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) return other;
+        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) masks.push_back(other);
     }
-    return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0 ? nullptr : band.GetMaskBand();
+    if ((band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA | GMF_ALPHA)) == 0) masks.push_back(band.GetMaskBand());
+    return masks;
 }
 
 /// The band with the heights; `notes` get a word when it is one of several.
@@ -190,19 +201,20 @@ GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, st
     return band;
 }
 
+/// Number of the first band with this meaning; 0 without one.
+int bandOf(GDALDataset& file, GDALColorInterp colour) {
+    for (int i = 1; i <= file.GetRasterCount(); ++i)
+        if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
+    return 0;
+}
+
 /// Numbers of the bands with red, green and blue.
 std::vector<int> colourBands(GDALDataset& file) {
-    const int count = file.GetRasterCount();
-    const auto bandOf = [&](GDALColorInterp colour) {
-        for (int i = 1; i <= count; ++i)
-            if (file.GetRasterBand(i)->GetColorInterpretation() == colour) return i;
-        return 0;
-    };
-    const std::vector<int> bands{bandOf(GCI_RedBand), bandOf(GCI_GreenBand), bandOf(GCI_BlueBand)};
+    const std::vector<int> bands{bandOf(file, GCI_RedBand), bandOf(file, GCI_GreenBand), bandOf(file, GCI_BlueBand)};
     if (std::count(bands.begin(), bands.end(), 0) == 0) return bands;
-    const int alpha = bandOf(GCI_AlphaBand);
-    if ((alpha == 0 ? count : alpha - 1) >= 3) return {1, 2, 3};
-    return std::vector(3, std::max(1, bandOf(GCI_GrayIndex)));
+    const int alpha = bandOf(file, GCI_AlphaBand);
+    if ((alpha == 0 ? file.GetRasterCount() : alpha - 1) >= 3) return {1, 2, 3};
+    return std::vector(3, std::max(1, bandOf(file, GCI_GrayIndex)));
 }
 
 /// The number that is shown at full brightness: the end of the usual range that holds the highest one.
@@ -252,7 +264,7 @@ GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGR
     // A user's factor may exaggerate heights.
     const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
     code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
-    code.mask = maskOf(file, band);
+    code.masks = masksOf(file, band);
     return GdalDataset(new HeightDataset(band, code, horizontal));
 }
 
@@ -269,18 +281,27 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
         if (result == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
         return GDALDataset::FromHandle(result);
     };
-    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
-        return GdalDataset(translated(file, CPLStringList(CSLTokenizeString("-of VRT -ot Byte -expand rgba"))));
+    const GDALColorInterp meaning = file.GetRasterBand(1)->GetColorInterpretation();
+    if (meaning >= GCI_HueBand) {
+        throw Failure("bands of \"" + path + "\" are " + GDALGetColorInterpretationName(meaning) +
+                      " and others; give an image of red, green and blue");
     }
-    std::vector<int> bands = colourBands(file);
+    GDALDataset* source = &file;
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
+        source = translated(file, CPLStringList(CSLTokenizeString("-of VRT -ot Byte -expand rgba")));
+    }
+    std::vector<int> bands = colourBands(*source);
+    GDALRasterBand* first = source->GetRasterBand(bands.front());
+    // GDAL's masks know alpha bands in the last place only, and not beside nodata.
+    const bool isUnmasked = (first->GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0;
+    const int alpha = isUnmasked ? bandOf(*source, GCI_AlphaBand) : 0;
     CPLStringList colours(CSLTokenizeString("-of VRT -ot Byte -colorinterp red,green,blue,alpha -a_nodata none"));
-    if (file.GetRasterBand(bands.front())->GetRasterDataType() != GDT_Byte) {
+    if (first->GetRasterDataType() != GDT_Byte) {
         const std::string most = CPLSPrintf("%.17g", brightest(file, bands, path));
         for (const char* option : {"-scale_1", "-scale_2", "-scale_3"})
             for (const char* word : {option, "0", most.c_str(), "0", "255"}) colours.AddString(word);
     }
-    GDALDataset* source = &file;
-    if (file.GetRasterBand(bands.front())->GetMaskFlags() == GMF_NODATA && bands.front() != bands.back()) {
+    if (alpha == 0 && first->GetMaskFlags() == GMF_NODATA && bands.front() != bands.back()) {
         // A pixel is missing only when all of its colours are.
         CPLStringList words(CSLTokenizeString("-of VRT"));
         std::string numbers = "NODATA_VALUES=";
@@ -299,7 +320,10 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
         colours.AddString(std::to_string(band).c_str());
     }
     colours.AddString("-b");
-    colours.AddString(("mask," + std::to_string(bands.front())).c_str());
+    colours.AddString((alpha > 0 ? std::to_string(alpha) : "mask," + std::to_string(bands.front())).c_str());
+    if (alpha > 0 && source->GetRasterBand(alpha)->GetRasterDataType() == GDT_UInt16) {
+        for (const char* word : {"-scale_4", "0", "65535", "0", "255"}) colours.AddString(word);
+    }
     GdalDataset result(translated(*source, colours));
     if (source != &file) source->ReleaseRef();  // the result has a reference of its own
     return result;

@@ -115,6 +115,40 @@ TEST_F(Images, OfAnyTypeAndOrderOfBandsHaveTheirColours) {
     EXPECT_NE(outcome.errors.find("-ot Byte -scale"), std::string::npos) << outcome.errors;
 }
 
+TEST_F(Images, AlphaCountsInAnyPlaceAndBesideNodata) {
+    GDALAllRegister();
+    for (const int alpha : {1, 4, 5}) {
+        GDALDataset* dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+            file("any.tif").c_str(), 60, 60, std::max(alpha, 4), GDT_Byte, nullptr);
+        double transform[6] = {10.0, 0.1, 0.0, 50.0, 0.0, -0.1};
+        dataset->SetGeoTransform(transform);
+        int colour = GCI_RedBand;
+        for (int i = 1; i <= dataset->GetRasterCount(); ++i) {
+            GDALRasterBand& band = *dataset->GetRasterBand(i);
+            band.SetColorInterpretation(i == alpha              ? GCI_AlphaBand
+                                        : colour > GCI_BlueBand ? GCI_Undefined
+                                                                : static_cast<GDALColorInterp>(colour++));
+            band.Fill(i == alpha ? 0.0 : 99.0);
+            if (alpha == 4) band.SetNoDataValue(7.0);
+        }
+        GDALClose(GDALDataset::ToHandle(dataset));
+        EXPECT_NE(shownAt(built({file("any.tif")}), 47.5, 13.5), (Colour{99, 99, 99})) << alpha;
+    }
+}
+
+TEST_F(Images, OtherColoursThanRedGreenAndBlueAreRefused) {
+    GDALAllRegister();
+    GDALDataset* dataset =
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file("ink.tif").c_str(), 60, 60, 4, GDT_Byte, nullptr);
+    double transform[6] = {10.0, 0.1, 0.0, 50.0, 0.0, -0.1};
+    dataset->SetGeoTransform(transform);
+    for (int i = 0; i < 4; ++i)
+        dataset->GetRasterBand(i + 1)->SetColorInterpretation(static_cast<GDALColorInterp>(GCI_CyanBand + i));
+    GDALClose(GDALDataset::ToHandle(dataset));
+    const Outcome outcome = run(command("earth.osgb", {file("ink.tif")}, {"--overwrite"}));
+    EXPECT_NE(outcome.errors.find("red, green and blue"), std::string::npos) << outcome.errors;
+}
+
 TEST_F(Images, TilesOfAMapProjectionHaveNoSeams) {
     GDALAllRegister();
     Words images;

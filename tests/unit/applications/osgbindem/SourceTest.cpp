@@ -279,6 +279,72 @@ TEST(Source, UnitsThatBandsDeclare) {
     }
 }
 
+TEST(Source, ALowestNumberIsAMarkInAnyUnit) {
+    const TempFolder folder;
+    GDALAllRegister();
+    plainWith(-32768.0, false).write(folder.file("plain.tif"));
+    GDALDataset* dataset = GDALDataset::Open(folder.file("plain.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+    dataset->GetRasterBand(1)->SetScale(0.1);
+    dataset->GetRasterBand(1)->SetOffset(1350.0);
+    GDALClose(GDALDataset::ToHandle(dataset));
+    expectPlain(folder.file("plain.tif"), false);
+}
+
+TEST(Source, SignedBytesAreSigned) {
+    const TempFolder folder;
+    GDALAllRegister();
+    char* words[] = {const_cast<char*>("PIXELTYPE=SIGNEDBYTE"), nullptr};
+    GDALDataset* dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(folder.file("small.tif").c_str(),
+                                                                                    72, 36, 1, GDT_Byte, words);
+    double transform[6] = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
+    dataset->SetGeoTransform(transform);
+    dataset->GetRasterBand(1)->Fill(256.0 - 7.0);
+    GDALClose(GDALDataset::ToHandle(dataset));
+    EXPECT_EQ(mosaicOf({folder.file("small.tif")}).height({22.5, 22.5}), -7.0);
+}
+
+TEST(Source, MasksAlphaAndNodataCountTogether) {
+    const TempFolder folder;
+    GDALAllRegister();
+    const std::string path = folder.file("plain.tif");
+    char* words[] = {const_cast<char*>("ALPHA=YES"), nullptr};
+    GDALDataset* dataset =
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 100, 100, 2, GDT_Float32, words);
+    double transform[6] = {10.0, 0.01, 0.0, 50.0, 0.0, -0.01};
+    dataset->SetGeoTransform(transform);
+    dataset->GetRasterBand(1)->SetNoDataValue(-1.0);
+    dataset->CreateMaskBand(GMF_PER_DATASET);
+    const std::array<GDALRasterBand*, 3> bands{dataset->GetRasterBand(1), dataset->GetRasterBand(2),
+                                               dataset->GetRasterBand(1)->GetMaskBand()};
+    // Each has a square of its own.
+    for (const int missing : {0, 1, 2}) {
+        std::vector<double> numbers(10000, missing == 0 ? 1500.0 : 255.0);
+        for (int place = 0; place < 10000; ++place) {
+            const bool isInRows = std::abs(place / 100 - 50) < 5;
+            const int square = (place % 100 - 25) / 10;
+            if (missing == 0 && isInRows && place % 100 > 24 && square < 3)
+                numbers[static_cast<std::size_t>(place)] = square == 0 ? -1.0 : 5000.0;
+            if (missing > 0 && isInRows && place % 100 > 24 && square == missing)
+                numbers[static_cast<std::size_t>(place)] = 0.0;
+        }
+        ASSERT_EQ(bands[static_cast<std::size_t>(missing)]->RasterIO(GF_Write, 0, 0, 100, 100, numbers.data(), 100, 100,
+                                                                     GDT_Float64, 0, 0, nullptr),
+                  CE_None);
+    }
+    GDALClose(GDALDataset::ToHandle(dataset));
+    osgbindem::DemMosaic mosaic = mosaicOf({path});
+    for (int i = 0; i < 100; ++i) EXPECT_NEAR(mosaic.height({49.5, 10.0 + 0.01 * i}), 1500.0, 1e-3) << i;
+}
+
+TEST(Source, ARasterBesideThePoleReachesItsNearestPlace) {
+    const TempFolder folder;
+    TestRaster strip(-1.6225e6, -3500.0, 5000.0, 5000.0, 640, 10, [](double, double) { return 500.0; });
+    strip.setReference("EPSG:3413");
+    strip.write(folder.file("strip.tif"));
+    osgbindem::DemMosaic mosaic = mosaicOf({folder.file("strip.tif")});
+    for (const double latitude : {89.9, 89.93, 89.95}) EXPECT_NEAR(mosaic.height({latitude, -45.0}), 500.0, 1e-3);
+}
+
 TEST(Source, OtherBodiesHaveTheRadiiThatTheirRastersDeclare) {
     const TempFolder folder;
     TestRaster moon = TestRaster::globe(5.0, [](double, double) { return 1000.0; });
