@@ -187,15 +187,12 @@ void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
 }  // namespace
 
 bool touches(const ChangedArea& area, const RectDeg& rect) noexcept {
-    const auto haveCommonLongitude = [&](const RectDeg& changed) {
-        const double turns = std::floor((changed.west - rect.west) / 360.0);
-        return rect.east + 360.0 * turns >= changed.west || rect.west + 360.0 * (turns + 1.0) <= changed.east;
-    };
     return std::any_of(area.begin(), area.end(), [&](const RectDeg& changed) {
         if (changed.south > rect.north || changed.north < rect.south) return false;
         const bool isAtPole =
             (changed.north >= 90.0 && rect.north >= 90.0) || (changed.south <= -90.0 && rect.south <= -90.0);
-        return isAtPole || haveCommonLongitude(changed);
+        const RectDeg turned = changed.turnedTo(rect);
+        return isAtPole || (turned.west <= rect.east && turned.east >= rect.west);
     });
 }
 

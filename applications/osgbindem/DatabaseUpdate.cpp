@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -53,14 +52,14 @@ struct Change {
     Change(const DatabaseFolder& folder, const TileLayout& tiles, ChangedArea changed)
         : layout(tiles),
           files(folder.standingFiles(tiles)),
-          starts(std::async(std::launch::deferred, binsFrom, folder.rootFile(), tiles.startTiles().size()).share()),
+          starts(binsFrom(folder.rootFile(), tiles.startTiles().size())),
           area(std::move(changed)) {}
 
     const TileLayout& layout;
     /// Of the database as it is.
     const TileFiles files;
-    /// Bins of the start tiles. The root file is large: it is read once, when one of the builders needs it.
-    const std::shared_future<std::vector<AnalyticBin>> starts;
+    /// Bins of the start tiles.
+    const std::vector<AnalyticBin> starts;
     const ChangedArea area;
     /// Tiles whose children are no longer there.
     std::mutex mutex;
@@ -118,7 +117,7 @@ private:
         if (tile.level == _layout.startLevel()) {
             const std::vector<TileId>& tiles = _layout.startTiles();
             const auto place = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
-            return _change.starts.get()[static_cast<std::size_t>(place)];
+            return _change.starts[static_cast<std::size_t>(place)];
         }
         const TileId parent = tile.ancestor(tile.level - 1);
         if (!(_parent == parent)) {
@@ -168,11 +167,12 @@ void updateDatabase(const Settings& given) {
     DatabaseFolder folder(settings.output);
     folder.lock();
     const std::string sources = describeSources(settings, layout);
-    Change change(folder, layout, requireUpdatable(folder, sources));
-    if (change.area.empty()) {
+    const ChangedArea area = requireUpdatable(folder, sources);
+    if (area.empty()) {
         if (!settings.quiet) std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
         return;
     }
+    Change change(folder, layout, area);
     folder.clear();
     std::vector<Task> tasks;
     {

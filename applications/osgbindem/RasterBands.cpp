@@ -273,8 +273,9 @@ RasterLook& lookOf(GDALDataset& heights) {
 }
 
 GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
-    const auto translated = [&](GDALDataset& source, CPLStringList words) {
-        GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
+    const auto translated = [&](GDALDataset& source, const std::string& words) {
+        CPLStringList list(CSLTokenizeString(("-of VRT " + words).c_str()));
+        GDALTranslateOptions* options = GDALTranslateOptionsNew(list.List(), nullptr);
         int usageError = 0;
         GDALDatasetH result = GDALTranslate("", GDALDataset::ToHandle(&source), options, &usageError);
         GDALTranslateOptionsFree(options);
@@ -287,42 +288,32 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
                       " and others; give an image of red, green and blue");
     }
     GDALDataset* source = &file;
-    if (file.GetRasterBand(1)->GetColorTable() != nullptr) {
-        source = translated(file, CPLStringList(CSLTokenizeString("-of VRT -ot Byte -expand rgba")));
-    }
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) source = translated(file, "-ot Byte -expand rgba");
     std::vector<int> bands = colourBands(*source);
     GDALRasterBand* first = source->GetRasterBand(bands.front());
     // GDAL's masks know alpha bands in the last place only, and not beside nodata.
     const bool isUnmasked = (first->GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0;
     const int alpha = isUnmasked ? bandOf(*source, GCI_AlphaBand) : 0;
-    CPLStringList colours(CSLTokenizeString("-of VRT -ot Byte -colorinterp red,green,blue,alpha -a_nodata none"));
+    std::string colours = "-ot Byte -colorinterp red,green,blue,alpha -a_nodata none";
     if (first->GetRasterDataType() != GDT_Byte) {
-        const std::string most = CPLSPrintf("%.17g", brightest(file, bands, path));
-        for (const char* option : {"-scale_1", "-scale_2", "-scale_3"})
-            for (const char* word : {option, "0", most.c_str(), "0", "255"}) colours.AddString(word);
+        const double most = brightest(file, bands, path);
+        for (const int channel : {1, 2, 3}) colours += CPLSPrintf(" -scale_%d 0 %.17g 0 255", channel, most);
     }
     if (alpha == 0 && first->GetMaskFlags() == GMF_NODATA && bands.front() != bands.back()) {
         // A pixel is missing only when all of its colours are.
-        CPLStringList words(CSLTokenizeString("-of VRT"));
-        std::string numbers = "NODATA_VALUES=";
+        std::string parts;
+        std::string numbers;
         for (const int band : bands) {
-            words.AddString("-b");
-            words.AddString(std::to_string(band).c_str());
+            parts += CPLSPrintf("-b %d ", band);
             numbers += CPLSPrintf("%.17g ", file.GetRasterBand(band)->GetNoDataValue());
         }
-        words.AddString("-mo");
-        words.AddString(numbers.c_str());
-        source = translated(file, words);
+        source = translated(file, parts + "-mo \"NODATA_VALUES=" + numbers + "\"");
         bands = {1, 2, 3};
     }
-    for (const int band : bands) {
-        colours.AddString("-b");
-        colours.AddString(std::to_string(band).c_str());
-    }
-    colours.AddString("-b");
-    colours.AddString((alpha > 0 ? std::to_string(alpha) : "mask," + std::to_string(bands.front())).c_str());
+    for (const int band : bands) colours += CPLSPrintf(" -b %d", band);
+    colours += CPLSPrintf(alpha > 0 ? " -b %d" : " -b mask,%d", alpha > 0 ? alpha : bands.front());
     if (alpha > 0 && source->GetRasterBand(alpha)->GetRasterDataType() == GDT_UInt16) {
-        for (const char* word : {"-scale_4", "0", "65535", "0", "255"}) colours.AddString(word);
+        colours += " -scale_4 0 65535 0 255";
     }
     GdalDataset result(translated(*source, colours));
     if (source != &file) source->ReleaseRef();  // the result has a reference of its own

@@ -413,11 +413,11 @@ RasterLook RasterFile::look() const {
     return look;
 }
 
-std::optional<Radii> foreignRadiiOf(const std::string& path) {
+std::optional<osgAnalyticBin::core::Ellipsoid> foreignEllipsoidOf(const std::string& path) {
     const GdalDataset dataset = opened(path);
     const OGRSpatialReference* reference = referenceOf(*dataset);
     if (reference == nullptr || reference->IsLocal() != 0 || isOfEarth(*reference)) return std::nullopt;
-    return Radii{reference->GetSemiMajor(), reference->GetSemiMinor()};
+    return osgAnalyticBin::core::Ellipsoid(reference->GetSemiMajor(), reference->GetSemiMinor());
 }
 
 }  // namespace osgbindem

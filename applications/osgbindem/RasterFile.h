@@ -6,6 +6,8 @@
 #include "RasterBands.h"
 #include "RasterGrid.h"
 
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
 #include <array>
 #include <memory>
 #include <optional>
@@ -81,11 +83,7 @@ private:
     std::vector<std::string> _notes;
 };
 
-/// The radii of the ellipsoid that a raster declares, where it is not the earth's. Throws Failure.
-struct Radii {
-    double equatorial = 0.0;
-    double polar = 0.0;
-};
-[[nodiscard]] std::optional<Radii> foreignRadiiOf(const std::string& path);
+/// The ellipsoid that a raster declares, where it is not the earth's. Throws Failure.
+[[nodiscard]] std::optional<osgAnalyticBin::core::Ellipsoid> foreignEllipsoidOf(const std::string& path);
 
 }  // namespace osgbindem

@@ -31,6 +31,11 @@ RectDeg RectDeg::grownBy(double borderDeg) const noexcept {
     return {west - borderDeg, std::max(south - borderDeg, -90.0), east + borderDeg, std::min(north + borderDeg, 90.0)};
 }
 
+RectDeg RectDeg::turnedTo(const RectDeg& other) const noexcept {
+    const double turn = 360.0 * std::round((0.5 * (other.west + other.east) - 0.5 * (west + east)) / 360.0);
+    return {west + turn, south, east + turn, north};
+}
+
 RasterGrid::RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept
     : _width(width),
       _height(height),

@@ -24,6 +24,9 @@ struct RectDeg {
     /// The same rectangle with a border on all sides, cut at the poles.
     [[nodiscard]] RectDeg grownBy(double borderDeg) const noexcept;
 
+    /// The same area, moved by whole turns so that it lies next to the other one.
+    [[nodiscard]] RectDeg turnedTo(const RectDeg& other) const noexcept;
+
     /// The area in square degrees that the rectangles have in common, longitudes modulo 360.
     [[nodiscard]] double overlap(const RectDeg& other) const noexcept {
         const double height = std::min(north, other.north) - std::max(south, other.south);

@@ -49,21 +49,8 @@ bool isElevation(GDALDataset& dataset) {
     return dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Float64;
 }
 
-void add(CPLStringList& words, const char* name, std::initializer_list<double> numbers) {
-    words.AddString(name);
-    for (const double number : numbers) words.AddString(CPLSPrintf("%.17g", number));
-}
-
-/// The area, moved by whole turns so that it lies next to the other one.
-RectDeg turnedTo(RectDeg area, const RectDeg& other) {
-    const double turn = 360.0 * std::round((0.5 * (other.west + other.east) - 0.5 * (area.west + area.east)) / 360.0);
-    area.west += turn;
-    area.east += turn;
-    return area;
-}
-
 RectDeg hullOf(const RectDeg& a, RectDeg b) {
-    b = turnedTo(b, a);
+    b = b.turnedTo(a);
     const RectDeg hull{std::min(a.west, b.west), std::min(a.south, b.south), std::max(a.east, b.east),
                        std::max(a.north, b.north)};
     return hull.east - hull.west < 360.0 ? hull : RectDeg{-180.0, hull.south, 180.0, hull.north};
@@ -96,11 +83,9 @@ GdalDataset mosaicOf(const RasterLayer::Members& members) {
     for (const auto& member : members) handles.push_back(GDALDataset::ToHandle(&member.file->dataset()));
     std::reverse(handles.begin(), handles.end());  // those named later are below
     const RasterFile& first = *members.front().file;
-    CPLStringList words(CSLTokenizeString("-resolution user"));
-    add(words, "-tr", {first.transform()[1], -first.transform()[5]});
-    if (isElevation(first.dataset())) {
-        for (const char* word : {"-srcnodata", "nan", "-vrtnodata", "nan"}) words.AddString(word);
-    }
+    CPLStringList words(
+        CSLTokenizeString(CPLSPrintf("-resolution user -tr %.17g %.17g %s", first.transform()[1], -first.transform()[5],
+                                     isElevation(first.dataset()) ? "-srcnodata nan -vrtnodata nan" : "")));
     GDALBuildVRTOptions* options = GDALBuildVRTOptionsNew(words.List(), nullptr);
     int usageError = 0;
     GdalDataset mosaic(GDALDataset::FromHandle(
@@ -115,20 +100,15 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
     if (!(frame.columns >= 1.0 && frame.rows >= 1.0 && frame.columns < kMost && frame.rows < kMost)) {
         throw Failure("\"" + file.path() + "\" is too wide for its spacing; give a part of it, see gdal_translate");
     }
-    // Each post is transformed by itself: what is between others would depend on how the raster is divided.
-    CPLStringList words(CSLTokenizeString("-of VRT -r bilinear -et 0 -novshift -wo SAMPLE_GRID=YES"));
+    // Each post is transformed by itself: what is between others would depend on how the raster is divided. Its height
+    // is that of its place (XSCALE, YSCALE), not the mean around it where the map's pixels are smaller.
+    const GeoTransform& t = frame.transform;
+    CPLStringList words(CSLTokenizeString(CPLSPrintf(
+        "-of VRT -r bilinear -et 0 -novshift -wo SAMPLE_GRID=YES -te %.17g %.17g %.17g %.17g -ts %.17g %.17g %s", t[0],
+        t[3] + frame.rows * t[5], t[0] + frame.columns * t[1], t[3], frame.columns, frame.rows,
+        isElevation(dataset) ? "-srcnodata nan -dstnodata nan -wo XSCALE=1 -wo YSCALE=1" : "-dstalpha")));
     words.AddString("-t_srs");
     words.AddString(wktOf(file.target()).c_str());
-    const GeoTransform& t = frame.transform;
-    add(words, "-te", {t[0], t[3] + frame.rows * t[5], t[0] + frame.columns * t[1], t[3]});
-    add(words, "-ts", {frame.columns, frame.rows});
-    if (isElevation(dataset)) {
-        for (const char* word : {"-srcnodata", "nan", "-dstnodata", "nan"}) words.AddString(word);
-        // A post's height is that of its place, not the mean around it where the map's pixels are smaller.
-        for (const char* word : {"-wo", "XSCALE=1", "-wo", "YSCALE=1"}) words.AddString(word);
-    } else {
-        words.AddString("-dstalpha");
-    }
     GDALWarpAppOptions* options = GDALWarpAppOptionsNew(words.List(), nullptr);
     GDALDatasetH source = GDALDataset::ToHandle(&dataset);
     int usageError = 0;
@@ -140,7 +120,7 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
 
 /// The part of a raster's grid that another one has.
 PixelWindow windowOf(const RasterGrid& member, const RasterGrid& grid) {
-    const RectDeg area = turnedTo(member.extent(), grid.extent());
+    const RectDeg area = member.extent().turnedTo(grid.extent());
     const auto [first, last] = std::minmax({grid.rowOf(area.north), grid.rowOf(area.south)});
     const double east = grid.columnOf(area.east);
     const double west = grid.columnOf(area.west);
@@ -160,13 +140,6 @@ double gap(double aLow, double aHigh, double bLow, double bHigh) {
     return std::max({0.0, bLow - aHigh, aLow - bHigh});
 }
 
-/// The rectangle and its copies a turn to either side.
-std::array<RectDeg, 3> turnsOf(const RectDeg& rect) {
-    return {rect,
-            {rect.west - 360.0, rect.south, rect.east - 360.0, rect.north},
-            {rect.west + 360.0, rect.south, rect.east + 360.0, rect.north}};
-}
-
 /// The area of a raster, and its copies a turn to either side; one round the globe has no end in the west and east.
 std::array<RectDeg, 3> areasOf(const RasterGrid& grid) {
     RectDeg rect = grid.extent();
@@ -174,7 +147,9 @@ std::array<RectDeg, 3> areasOf(const RasterGrid& grid) {
         rect.west -= 720.0;
         rect.east += 720.0;
     }
-    return turnsOf(rect);
+    return {rect,
+            {rect.west - 360.0, rect.south, rect.east - 360.0, rect.north},
+            {rect.west + 360.0, rect.south, rect.east + 360.0, rect.north}};
 }
 
 /// Metres; 0 when no coarser raster lies below.
@@ -266,14 +241,12 @@ double BlendBand::shareWithin(const PositionDeg& position) const noexcept {
 
 bool BlendBand::touches(const RectDeg& rect) const noexcept {
     const double east = std::min(cosine(rect.south), cosine(rect.north));
-    for (const RectDeg& edge : _edges) {
-        for (const RectDeg& turned : turnsOf(edge)) {
-            const double y = gap(rect.south, rect.north, turned.south, turned.north);
-            const double x = east * gap(rect.west, rect.east, turned.west, turned.east);
-            if (_metresPerDegree * std::hypot(x, y) <= _width) return true;
-        }
-    }
-    return false;
+    return std::any_of(_edges.begin(), _edges.end(), [&](const RectDeg& edge) {
+        const RectDeg turned = edge.turnedTo(rect);
+        const double y = gap(rect.south, rect.north, turned.south, turned.north);
+        const double x = east * gap(rect.west, rect.east, turned.west, turned.east);
+        return _metresPerDegree * std::hypot(x, y) <= _width;
+    });
 }
 
 void BlendBand::describe(std::ostream& out) const {

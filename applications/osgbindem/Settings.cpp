@@ -229,13 +229,13 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
 
 Settings withDeclaredRadii(Settings settings) {
     if (settings.areRadiiGiven) return settings;
-    const auto radii = foreignRadiiOf(settings.dems.front().path);
-    if (!radii) return settings;
-    settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(radii->equatorial, radii->polar);
+    const auto foreign = foreignEllipsoidOf(settings.dems.front().path);
+    if (!foreign) return settings;
+    settings.ellipsoid = *foreign;
     settings.isWgs84 = false;
     if (!settings.quiet) {
-        std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", " << radii->equatorial
-                  << " and " << radii->polar << " m; see --radii" << std::endl;
+        std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", "
+                  << foreign->equatorialRadius() << " and " << foreign->polarRadius() << " m; see --radii" << std::endl;
     }
     return settings;
 }

@@ -132,10 +132,9 @@ SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, 
 
     Line own{edge, tile, firstPostOf(tile, _layout, edge), {}, {}};
     for (int i = 0; i < _layout.posts(); ++i) {
-        const int column = own.isParallel() ? i : (edge == Edge::East ? _layout.cells() : 0);
-        const int row = own.isParallel() ? (edge == Edge::North ? _layout.cells() : 0) : i;
         const PostId post = own.post(tile.level, own.along() + i, own.across());
-        own.heights.push_back(surveyed.grid.height(column, row));
+        own.heights.push_back(surveyed.grid.height(static_cast<int>(post.column - surveyed.grid.firstColumn),
+                                                   static_cast<int>(post.row - surveyed.grid.firstRow)));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
     compareWithFiner(own, skirt);

@@ -29,17 +29,6 @@ double halfDiagonal(const TileId& tile, const TileLayout& layout) {
 
 }  // namespace
 
-std::size_t tileVertexCount(int cells) noexcept {
-    return static_cast<std::size_t>((cells + 1) * (cells + 5));
-}
-
-std::size_t edgeVertex(int cells, Edge edge, int along) noexcept {
-    const bool isParallel = edge == Edge::South || edge == Edge::North;
-    const int column = isParallel ? along : edge == Edge::East ? cells : 0;
-    const int row = !isParallel ? along : edge == Edge::North ? cells : 0;
-    return static_cast<std::size_t>(row * (cells + 1) + column);
-}
-
 osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile) {
     osgAnalyticBin::TerrainGrid grid;
     grid.ellipsoid = layout.ellipsoid();

@@ -16,13 +16,6 @@
 
 namespace osgbindem {
 
-/// Number of vertices of a tile: (cells + 1)^2 of the surface, row by row from the south-west, then cells + 1 for the
-/// lower end of each skirt.
-[[nodiscard]] std::size_t tileVertexCount(int cells) noexcept;
-
-/// The surface vertex at a place along an edge, counted eastward or northward.
-[[nodiscard]] std::size_t edgeVertex(int cells, Edge edge, int along) noexcept;
-
 /// What the grid of a tile is apart from its heights: its size, and its place among the posts of its level.
 [[nodiscard]] osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile);
 

@@ -52,10 +52,13 @@ std::vector<osg::Vec3d> edgeOf(osg::Node& tile, Edge edge) {
     osg::MatrixTransform& placed = placedMeshOf(tile);
     const auto& vertices =
         static_cast<const osg::Vec3Array&>(*placed.getChild(0)->asGeometry()->getVertexArray()).asVector();
+    const bool isParallel = edge == Edge::South || edge == Edge::North;
+    const int across = edge == Edge::North || edge == Edge::East ? kCells : 0;
     std::vector<osg::Vec3d> points;
-    for (int along = 0; along <= kCells; ++along)
-        points.push_back(osg::Vec3d(vertices[osgbindem::edgeVertex(kCells, edge, along)]) +
-                         placed.getMatrix().getTrans());
+    for (int along = 0; along <= kCells; ++along) {
+        const int vertex = isParallel ? across * (kCells + 1) + along : along * (kCells + 1) + across;
+        points.push_back(osg::Vec3d(vertices[static_cast<std::size_t>(vertex)]) + placed.getMatrix().getTrans());
+    }
     return points;
 }
 
