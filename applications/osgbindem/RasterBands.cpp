@@ -81,9 +81,9 @@ protected:
                                          lineSpace, nullptr);
         const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
         std::vector<unsigned char> isThere(count, 1);
-        std::vector<unsigned char> part(count);
         for (GDALRasterBand* mask : _code.masks) {
             if (error != CE_None) break;
+            std::vector<unsigned char> part(count);
             error = mask->RasterIO(GF_Read, x, y, width, height, part.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
             std::transform(part.begin(), part.end(), isThere.begin(), isThere.begin(),
                            [](unsigned char a, unsigned char b) -> unsigned char { return a != 0 && b != 0 ? 1 : 0; });
