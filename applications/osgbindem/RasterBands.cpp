@@ -25,7 +25,7 @@ namespace {
 constexpr double kHighestOnEarth = 12000.0;
 constexpr double kHighest = 1e5;
 // The lowest number of 16 bits marks missing heights in any unit. A height that it is by chance is interpolated.
-constexpr double kLowest = -32768.0;
+constexpr double kLowestNumber = -32768.0;
 
 /// How the numbers of a band become metres.
 struct HeightCode {
@@ -106,7 +106,7 @@ private:
                 isThere[i] == 0 ||
                 (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == nodata)));
             const double metres = number * _code.scale + _code.offset;
-            const bool isHeight = std::abs(metres) <= _code.highest && number != kLowest;
+            const bool isHeight = std::abs(metres) <= _code.highest && number != kLowestNumber;
             line[i] = isMissing || !isHeight ? kMissing : metres;
             ++_look.posts;
             if (!isMissing && isHeight) continue;

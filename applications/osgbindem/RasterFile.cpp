@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <dlfcn.h>
 #include <string_view>
+#include <utility>
 
 namespace osgbindem {
 

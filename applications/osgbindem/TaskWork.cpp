@@ -6,6 +6,8 @@
 #include "Failure.h"
 #include "Interruption.h"
 
+#include <ogr_srs_api.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,6 +17,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
 namespace osgbindem {
@@ -79,22 +82,31 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
             stopRequested.store(true);  // the other threads need not go on
         }
     };
+    // GDAL hands transformations on from thread to thread, and those of rotated poles keep PROJ's context of the thread
+    // that made them: no thread ends before all have finished, and none of these transformations is left then.
+    std::atomic<std::size_t> finished{0};
     std::vector<std::future<void>> threads;
+    std::promise<void> leave;
+    const std::shared_future<void> mayLeave = leave.get_future().share();
     for (int i = 0; i < site.settings.threads; ++i) {
-        threads.push_back(std::async(std::launch::async, guarded, [&] {
-            TileBuilder builder(site.settings, site.layout, site.files);
-            const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
-            builder.setFinishedTasks(standing);
-            work(builder, standing);
+        threads.push_back(std::async(std::launch::async, [&, mayLeave] {
+            guarded([&] {
+                TileBuilder builder(site.settings, site.layout, site.files);
+                const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
+                builder.setFinishedTasks(standing);
+                work(builder, standing);
+            });
+            ++finished;
+            mayLeave.wait();
+            OSRCleanup();
         }));
     }
-    for (const auto& thread : threads) {
-        if (!glance) thread.wait();
-        while (thread.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready) {
-            const bool isStopped = stopRequested;  // before the look at failures, which set it too
-            if (!hasFailed) guarded([&] { glance(isStopped); });
-        }
+    for (; finished < threads.size(); std::this_thread::sleep_for(std::chrono::milliseconds(2))) {
+        const bool isStopped = stopRequested;  // before the look at failures, which set it too
+        if (glance && !hasFailed) guarded([&] { glance(isStopped); });
     }
+    leave.set_value();
+    for (const auto& thread : threads) thread.wait();
     if (error) std::rethrow_exception(error);
 }
 
