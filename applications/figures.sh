@@ -65,8 +65,8 @@ on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --size 640x360 \
     --repeats 12 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
 # shellcheck disable=SC2086
 on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
-    --methods sphere,cluster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
-    --size 640x360 --repeats 8 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
+    --methods "sphere,cluster,quadratic+horizon+edges,$default" --size 640x360 --repeats 8 \
+    --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
 step "Frames of flights"
 for threading in SingleThreaded DrawThreadPerContext; do
