@@ -31,7 +31,7 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
     _lower.fill(kInfinity);
     _upper.fill(-kInfinity);
     _lists.fill(kNone);
-    _walls.reserve(4096);
+    _walls.reserve(1024);
 }
 
 void HorizonBuffer::add(const EarthColumns& columns) {
