@@ -135,8 +135,8 @@ struct Stopped {};
 // DatabasePager reads, and keeps it for the next time.
 class AutoIndex final : public TileBoundsSource {
 public:
-    // `kept`: an index with stamps, which is used if no file has changed since; null: none.
-    AutoIndex(const std::string& rootFile, osg::ref_ptr<const BinIndex> kept)
+    // `kept`: indexes with stamps, of which one is used if no file has changed since.
+    AutoIndex(const std::string& rootFile, std::vector<osg::ref_ptr<const BinIndex>> kept)
         : _rootFile(rootFile), _kept(std::move(kept)) {}
 
     void start() override {
@@ -233,8 +233,9 @@ private:
     // Does the work, in the thread. What it throws is shown as the reason why there is no index.
     void make() {
         const DatabaseFiles files(_rootFile);
-        const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
-        if (kept && isUpToDate(*kept, files)) return publish(kept);
+        for (const osg::ref_ptr<const BinIndex>& kept : std::exchange(_kept, {})) {
+            if (isUpToDate(*kept, files)) return publish(kept);
+        }
         constexpr int kMostRounds = 3;
         for (int round = 0; round < kMostRounds; ++round) {
             const osg::ref_ptr<const BinIndex> index = makeFrom(files);
@@ -295,7 +296,7 @@ private:
     }
 
     const std::string _rootFile;
-    osg::ref_ptr<const BinIndex> _kept;
+    std::vector<osg::ref_ptr<const BinIndex>> _kept;
     std::size_t _tiles = 0;
     std::thread _thread;
     std::mutex _threadMutex;  // of _thread
@@ -313,24 +314,31 @@ private:
 ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions, IndexUse use) {
     if (use == IndexUse::Off || databaseFileName.empty()) return {};
     const std::string root = localRoot(databaseFileName, readOptions);
-    std::string error;
-    osg::ref_ptr<BinIndex> index = readBinIndex(databaseFileName, readOptions, error);
     const bool isMade = use == IndexUse::Auto && !root.empty();
-    std::string cacheError;
-    if (!index && isMade) index = readCached(root, cacheError);
-    if (error.empty()) error = cacheError;
-    if (!error.empty()) {
-        OSG_WARN << "osgAnalyticBin: " << error << (isMade ? "; that is done in the background now" : "") << std::endl;
-    }
     // stamps of so many files are compared before the first frame
     constexpr std::size_t kFewFiles = 4096;
-    if (index && index->stamps().empty()) return {index, nullptr};
-    // times of files in archives and on servers are not known
-    if (index && root.empty()) return {};
-    const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
-    if (isSoonCompared && isCurrent(*index, DatabaseFiles(root), [] {})) return {index, nullptr};
-    if (isSoonCompared) index = nullptr;
-    return {nullptr, isMade ? new AutoIndex(root, index) : nullptr};
+    std::vector<osg::ref_ptr<const BinIndex>> kept;
+    // one beside the database may be out of date, and one in the cache folder not
+    for (const bool isBeside : {true, false}) {
+        if (!isBeside && !isMade) break;
+        std::string error;
+        const osg::ref_ptr<const BinIndex> index =
+            isBeside ? readBinIndex(databaseFileName, readOptions, error) : readCached(root, error);
+        if (!error.empty()) {
+            OSG_WARN << "osgAnalyticBin: " << error << (isMade ? "; that is done in the background now" : "")
+                     << std::endl;
+        }
+        if (!index) continue;
+        if (index->stamps().empty()) return {index, nullptr};
+        // times of files in archives and on servers are not known
+        if (root.empty()) return {};
+        if (isMade && index->stamps().size() > kFewFiles) {
+            kept.push_back(index);
+        } else if (isCurrent(*index, DatabaseFiles(root), [] {})) {
+            return {index, nullptr};
+        }
+    }
+    return {nullptr, isMade ? new AutoIndex(root, std::move(kept)) : nullptr};
 }
 
 }  // namespace osgAnalyticBin

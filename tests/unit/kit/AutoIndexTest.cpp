@@ -140,6 +140,20 @@ TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {
     EXPECT_NEAR(highOfRoot(), 2000.0, 1.0);
 }
 
+// As an index that was made with osgbinconv, and forgotten.
+TEST_F(AutoIndex, IsUsedTheNextTimeWhereOneBesideTheDatabaseIsOutOfDate) {
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    std::filesystem::copy_file(keptFiles().front(), binIndexName(_file));
+    write(700.0, 1200.0);
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_NEAR(highOfRoot(), 1200.0, 1.0);
+    open();
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+    EXPECT_NEAR(highOfRoot(), 1200.0, 1.0);
+}
+
 TEST_F(AutoIndex, IsMadeWhereSomethingElseHasTheNameOfOneBesideTheDatabase) {
     (void)_folder.write("root.osgb.bins", "of another program");
     const CapturedNotes notes;
