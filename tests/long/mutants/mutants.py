@@ -17,9 +17,7 @@ import time
 from faults import FAULTS, SCENES
 
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
-# what a build needs; documents, data and other programs are not looked at
-PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/packed",
-         "applications/hull", "applications/research/rivals")
+PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications")
 LONGEST_RUN = 900  # seconds; a fault may make a test loop
 
 
@@ -54,7 +52,7 @@ class Scratch:
     def configure(self):
         copy_sources(self.sources)
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=OFF",
-                   "-DOSGANALYTICBIN_WERROR=OFF", "-DOSGANALYTICBIN_APPLICATIONS=OFF", "-DOSGANALYTICBIN_BENCHMARKS=OFF"]
+                   "-DOSGANALYTICBIN_WERROR=OFF", "-DOSGANALYTICBIN_BENCHMARKS=OFF"]
         return run(["cmake", "-S", self.sources, "-B", self.build, "-G", "Ninja", *options], self.log)
 
     def make(self, target):
