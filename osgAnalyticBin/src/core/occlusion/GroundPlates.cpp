@@ -265,13 +265,17 @@ bool GroundPlates::hasPartsOf(const GeodeticBin& bin) const noexcept {
 }
 
 double GroundPlates::most(std::size_t part, const GeodeticBin& bin) const noexcept {
-    return _most[part] != kUnknown && hasPartsOf(bin) ? decoded(_most[part]) : kInfinity;
+    return hasPartsOf(bin) ? top(part) : kInfinity;
 }
 
 double GroundPlates::mostOfQuarter(std::size_t quarter, const GeodeticBin& bin) const noexcept {
-    double highest = -kInfinity;
-    for (std::size_t part = 4 * quarter; part < 4 * quarter + 4; ++part) highest = std::max(highest, most(part, bin));
-    return highest;
+    if (!hasPartsOf(bin)) return kInfinity;
+    const std::size_t first = 4 * quarter;
+    return std::max({top(first), top(first + 1), top(first + 2), top(first + 3)});
+}
+
+double GroundPlates::top(std::size_t part) const noexcept {
+    return _most[part] != kUnknown ? decoded(_most[part]) : kInfinity;
 }
 
 // Whether columns keep within the rims of a grid's cells.
@@ -298,7 +302,6 @@ namespace {
 // widths of the tile from its middle, and their numbers.
 struct QuarterCells {
     static constexpr std::size_t kCount = 16 + 4 + 1 + 1;
-    // vectors may begin at any cell
     std::array<double, kCount> south{}, north{}, west{}, east{};
     std::array<std::size_t, kCount> number{};
     std::array<std::size_t, kCount> above{};  // the cell of the next coarser grid that holds it; the last has none

@@ -108,6 +108,7 @@ private:
     [[nodiscard]] double narrowest() const noexcept;
     [[nodiscard]] bool mayHang(double skirt) const noexcept;
     [[nodiscard]] bool hasPartsOf(const GeodeticBin& bin) const noexcept;
+    [[nodiscard]] double top(std::size_t part) const noexcept;
     // `high`: of the parts, infinity where not known.
     void encode(const std::array<double, kNumbers>& low, const std::array<double, kParts>& high,
                 double margin) noexcept;
