@@ -116,7 +116,7 @@ struct Raster {
     double reachDeg = 0.0;
     double resolutionDeg = 0.0;
     RectDeg area;
-    /// All that is said of the raster but its reach.
+    /// The description of the raster, without its reach.
     std::string text;
 
     bool operator==(const Raster& other) const { return text == other.text; }

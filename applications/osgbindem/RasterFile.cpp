@@ -189,7 +189,7 @@ RectDeg extentOf(void* transformer, int width, int height) {
     constexpr int kSteps = 64;
     constexpr double kLeastGap = 2.0 * 360.0 / kSteps;  // smaller ones may be between places
     const Places places = latticeOf(transformer, kSteps, width, height);
-    // What is nearest to a pole may lie between them.
+    // The place nearest to a pole may lie between those of the lattice.
     Places nearest;
     bool holdsPole = false;
     for (const double latitude : {90.0, -90.0}) {

@@ -83,7 +83,7 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
         }
     };
     // GDAL hands transformations on from thread to thread, and those of rotated poles keep PROJ's context of the thread
-    // that made them: no thread ends before all have finished, and none of these transformations is left then.
+    // that made them. So all threads wait until the last one has finished, and delete these transformations.
     std::atomic<std::size_t> finished{0};
     std::vector<std::future<void>> threads;
     std::promise<void> leave;

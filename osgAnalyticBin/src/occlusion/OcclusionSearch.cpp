@@ -136,8 +136,8 @@ private:
         }
     }
 
-    // Whether the four parts of a quarter are hidden, most of which are not as high. All take the earth in front of the
-    // quarter: earth is used front to back.
+    // Whether all four parts of a quarter are hidden: they are smaller, and most are lower. Only earth in front of the
+    // whole quarter counts, because earth is used front to back.
     [[nodiscard]] bool arePartsHidden(const Quarter& quarter) {
         Candidate& candidate = _candidates[quarter.candidate];
         const GeodeticBin drawn = candidate.tile->drawn(), bin = drawn.quarters()[quarter.number];
@@ -258,7 +258,7 @@ private:
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        // finer cells that stand out by less of a strip's width in the picture hide hardly more
+        // finer cells that stand out by less than this share of a strip's width hide hardly more
         constexpr double kWorth = 0.1;
         const double worth = kWorth * candidate.distance * _found->span.across.width() / HorizonBuffer::kStrips;
         candidate.plates->columns(GroundPlates::kFinest, coarsest, quarter.number, depth, worth, _frame, _columns);

@@ -138,8 +138,8 @@ public:
         return delivery;
     }
 
-    /// What OSG's own visitor, for which the kit enters tiles by itself, gets of what the recorder got. Returns:
-    /// nullopt where it gets something otherwise than a derived visitor does that gets it as often.
+    /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit enters tiles by itself. Returns:
+    /// nullopt where it gets a drawable as often as a derived visitor does, but in another way.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
@@ -335,9 +335,10 @@ private:
         return found ? std::optional(failed(*found, frame)) : std::nullopt;
     }
 
-    // OSG's own visitor may get less than a derived one, of what is not seen: for a derived one OSG tests below
-    // transforms again what spheres of groups have decided, and bins across more than two planes are not tested against
-    // edges; so that finds more tiles in view, and may find a hole among them, or a larger near plane.
+    // OSG's own visitor may get fewer drawables than a derived one, if nothing that is seen is missing. For a derived
+    // one OSG tests again, below transforms, what spheres of groups have decided, and bins across more than two planes
+    // are not tested against edges. So it finds more tiles in view, and may find a hole among them, or a larger near
+    // plane.
     [[nodiscard]] std::optional<Failure> compareVisitors(const Delivery& derived, const ViewSpec& view, int frame) {
         const auto own = _with.deliverToOsg(view, *_stamp, derived);
         if (!own) return Failure{frame, "OSG's own visitor gets something otherwise than a derived one", ""};

@@ -71,7 +71,7 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
              double reach = 0.0);
 
-/// A quarter of a tile, with its outline in the buffer's picture.
+/// A quarter of a tile, or a part of one, with its outline in the buffer's picture.
 struct OutlinedPart {
     GroundTile part;  ///< without a mesh
     core::HorizonBuffer::Outline outline;

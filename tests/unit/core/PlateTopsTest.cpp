@@ -62,12 +62,13 @@ struct Tile {
     EcefMesh mesh;
 };
 
-// Returns: how many tops are known.
+// Which of four equal strips of an interval a number is in.
 std::size_t stripOf(const Interval& whole, Real at) {
     const double share = static_cast<double>((at - whole.lower) / whole.width());
     return static_cast<std::size_t>(std::clamp(std::floor(4.0 * share), 0.0, 3.0));
 }
 
+// Returns: how many tops are known.
 int expectBelowTops(Random& random, const Tile& tile, const EcefMesh& drawn, const GroundPlates& plates, double depth) {
     const GeodeticBin bin = tile.bin(random, depth);
     for (std::size_t i = 0; i < drawn.triangles.size(); i += 3) {
@@ -147,7 +148,7 @@ TEST(GroundPlates, TopsAreAboveSkirtsOfAGrid) {
     EXPECT_GT(known, 2000);
 }
 
-// A line counts by its ends, and may run through all quarters.
+// A line counts by its ends, and may run through all parts.
 TEST(GroundPlates, TopsAreAboveLines) {
     Random random(1734);
     int known = 0;

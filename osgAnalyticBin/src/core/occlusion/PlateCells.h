@@ -64,7 +64,7 @@ struct CellRange {
 inline constexpr double kRoomOfPart = 0.06;
 
 /// Calls visit(part) for each part of the extents that what lies between these latitudes and longitudes counts for.
-/// They are numbered as those of GroundPlates, and have no outer ends.
+/// Parts are numbered as in GroundPlates; the outer ones have no outer border.
 template <class Visit>
 void forEachPart(const Interval& latitude, const Interval& longitude, const Interval& metLatitude,
                  const Interval& metLongitude, Visit&& visit) {

@@ -115,8 +115,8 @@ private:
     void show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel);
 
     [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way, bool waits = false);
-    // Call where something that hides may not be drawn. What adds to a mesh need not hide: it counts no more from there
-    // to the end of the scope, but is walked over to its end.
+    // Call where something that hides may not be drawn. In a level that is added to a mesh, the walk goes on: only the
+    // tiles from there to the end of the scope hide nothing.
     void doubt() {
         _hasHole = _hasHole || (_searches && !_isAdded);
         _searches = _searches && !_isAdded;
