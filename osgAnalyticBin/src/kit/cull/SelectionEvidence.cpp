@@ -122,7 +122,9 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
     for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
         if (!isDue(i)) continue;
         const Scoped searches(_searches, _searches), added(_isAdded, _isAdded || (isOwnShown && isPaged(node, i)));
-        if (i < children) searchChild(node, i, tile, byDistance && due == 1);
+        // a level that only adds something, such as models, covers nothing
+        const bool isCover = !(_isAdded && hasGapBelow(tile));
+        if (i < children && isCover) searchChild(node, i, tile, byDistance && due == 1);
         isOneAwaited = isOneAwaited || i >= children;
     }
     // the last child stands in for one that is awaited
@@ -141,8 +143,12 @@ void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile&
 
 // Of a tile whose levels in files are shown.
 void SelectionWalk::doubtLevelsOf(const Tile& tile) {
-    const InstalledTile* const installed = tile.isCertain || _isAdded ? nullptr : tile.callback.getInstalledTile();
-    if (installed && installed->has(InstalledTile::GapBelow)) doubt();
+    if (!_isAdded && hasGapBelow(tile)) doubt();
+}
+
+bool SelectionWalk::hasGapBelow(const Tile& tile) {
+    const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
+    return installed && installed->has(InstalledTile::GapBelow);
 }
 
 // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.

@@ -131,8 +131,9 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
         forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);
-            if (!hasBit(verdicts.members, number)) return selectNode(child);
-            selectMember(child, siblings, first + number);
+            if (hasBit(verdicts.members, number)) return selectMember(child, siblings, first + number);
+            if (!family.isWithoutTiles(first + number, child)) return selectNode(child);
+            if (_keeps) (void)keep(child, nullptr, Way::Plain);
         });
     }
     if (isChanged && _keeps) _view.database->noteChanged(group);

@@ -110,6 +110,7 @@ private:
     void searchPaged(osg::PagedLOD& node, const Tile& tile);
     void searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel);
     void doubtLevelsOf(const Tile& tile);
+    [[nodiscard]] static bool hasGapBelow(const Tile& tile);
     [[nodiscard]] bool selectShownLevel(osg::PagedLOD& node, const Tile& tile);
     [[nodiscard]] static core::Interval surfaceOf(const Tile& tile);
     void show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel);

@@ -7,6 +7,7 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../tile/InstalledTile.h"
+#include "CullCallbacks.h"
 #include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
@@ -17,8 +18,21 @@
 #include <algorithm>
 #include <cstdint>
 #include <typeinfo>
+#include <unordered_set>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+// The first tile of a subgraph. Returns: nullptr where there is none.
+const AnalyticBinCullCallback* firstTile(const osg::Node& node) {
+    const AnalyticBinCullCallback* tile = CullCallbacks(node).bin;
+    const osg::Group* const group = node.asGroup();
+    for (unsigned int i = 0; group && !tile && i < group->getNumChildren(); ++i) tile = firstTile(*group->getChild(i));
+    return tile;
+}
+
+}  // namespace
 
 TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
@@ -44,7 +58,8 @@ bool TileFamily::place(osg::Node& node) {
     remove(node);
     if (!isPossibleOn(node)) return false;
     const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
-    const bool isUsed = family->_hasTiles || family->_hasGroups;
+    family->findOthers(*node.asGroup(), nullptr);
+    const bool isUsed = family->isUsed();
     if (isUsed) node.addCullCallback(family);
     return isUsed;
 }
@@ -59,7 +74,33 @@ void TileFamily::remove(osg::Node& node) {
     }
 }
 
+void TileFamily::findOthers(const osg::Group& group, const TileFamily* before) {
+    std::unordered_set<const osg::Node*> known;
+    if (before) known.insert(before->_withoutTiles.begin(), before->_withoutTiles.end());
+    _withoutTiles.resize(_nodes.size());
+    for (unsigned int i = 0; i < _nodes.size(); ++i) {
+        const osg::Node* const child = group.getChild(i);
+        if (_nodes[i]) continue;
+        const AnalyticBinCullCallback* const tile = known.count(child) == 0 ? firstTile(*child) : nullptr;
+        if (!tile) _withoutTiles[i] = child;
+        _hasTilesBelow = _hasTilesBelow || tile;
+        _hasOthers = _hasOthers || !tile;
+        if (tile && !_ellipsoid) _ellipsoid = tile->ellipsoid();
+    }
+}
+
+void TileFamily::expectTilesBelow(osg::Node& node) {
+    for (osg::Group* const parent : node.getParents()) {
+        const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(parent->getCullCallback());
+        if (family)
+            std::replace(family->_withoutTiles.begin(), family->_withoutTiles.end(),
+                         static_cast<const osg::Node*>(&node), static_cast<const osg::Node*>(nullptr));
+        expectTilesBelow(*parent);
+    }
+}
+
 void TileFamily::renew(osg::Node& node) {
+    expectTilesBelow(node);
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
     if (!old) (void)place(node);
     if (!old || old->_group != &node) return;
@@ -73,7 +114,8 @@ void TileFamily::renew(osg::Node& node) {
                                           [&](const auto& tile) { return tile && !group.containsNode(tile); });
     if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
     if (above) family->_block->columnUnion().setAbove(above);
-    if (family->_hasTiles || family->_hasGroups || family->_hasLostTiles) node.addCullCallback(family);
+    family->findOthers(group, old);
+    if (family->isUsed() || family->_hasLostTiles) node.addCullCallback(family);
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {

@@ -42,12 +42,16 @@ public:
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
-    /// is not possible, or no child is a tile with a bin in the group's own frame, ECEF, and not all are groups with
-    /// families. Families of children have to be placed before. Returns: whether there is one.
+    /// is not possible, or no child is a tile with a bin in the group's own frame, ECEF, or a group with a family, and
+    /// there are not both children with tiles below them and children without. Families of children have to be placed
+    /// before. Returns: whether there is one.
     static bool place(osg::Node& node);
 
     /// Removes the family.
     static void remove(osg::Node& node);
+
+    /// Call when there may be tiles below a node where there were none.
+    OSGANALYTICBIN_EXPORT static void expectTilesBelow(osg::Node& node);
 
     /// Rebuilds the family of a group after the application has added, removed or replaced children; places one where
     /// there was none and the first tile was added. Requires: no cull traversal runs.
@@ -109,6 +113,12 @@ public:
     /// a hole.
     [[nodiscard]] bool hasLost(const osg::Group& group) const;
 
+    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile
+    /// that is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
+    [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child) const {
+        return slot < _withoutTiles.size() && _withoutTiles[slot] == &child;
+    }
+
     /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
     void noteMemory(const Footprint& footprint, const osg::Node& level) const;
 
@@ -120,6 +130,11 @@ protected:
 
 private:
     explicit TileFamily(osg::Group& group);
+    // Looks what is below children that are neither tiles nor groups with families. `before`: the family that the
+    // group had; null: none.
+    void findOthers(const osg::Group& group, const TileFamily* before);
+    // Whether it has tiles to test, or something to keep walks away from.
+    [[nodiscard]] bool isUsed() const { return _hasTiles || _hasGroups || (_hasTilesBelow && _hasOthers); }
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool hasSameChildren(const osg::Group& group) const;
@@ -131,12 +146,15 @@ private:
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;
     bool _hasGroups = false;
+    bool _hasTilesBelow = false;  // below other children
+    bool _hasOthers = false;      // children without tiles
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // one for each child
     // references, so that no address is used again; null: neither a tile nor a group with a family
     std::vector<osg::ref_ptr<osg::Node>> _nodes;
     std::vector<FamilyTile> _tiles;
+    std::vector<const osg::Node*> _withoutTiles;  // null: there may be tiles
     // the same for all tiles
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;

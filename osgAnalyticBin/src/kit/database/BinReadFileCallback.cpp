@@ -115,13 +115,14 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     const BusyPager busy(_database->making());
     // before anything is asked of the database: what changes meanwhile is a later one
     const unsigned int generation = _database->generation();
-    ReadResult result = readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options); });
-    if (result.validNode()) _database->noteOnItsWay(*result.getNode(), generation, false);
+    bool isAdded = false;
+    ReadResult result = readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options, isAdded); });
+    if (result.validNode()) _database->noteOnItsWay(*result.getNode(), generation, isAdded);
     return result;
 }
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::string& fileName,
-                                                                    const osgDB::Options* options) {
+                                                                    const osgDB::Options* options, bool& isAdded) {
     const osg::ref_ptr<osgDB::Options> plain = options ? options->cloneOptions() : nullptr;
     if (plain) {
         plain->setReadFileCallback(_previous.get());
@@ -142,7 +143,8 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
         root->asGroup()->addChild(node);
     }
     const Expected& known = expected(fileName, options);
-    (void)_database->install(*root, known.frame, known.parent.get());
+    const bool hasTiles = _database->install(*root, known.frame, known.parent.get()) > 0;
+    isAdded = hasTiles && !(known.parent && known.parent->ordinal);
     return ReadResult(root.get(), result.status());
 }
 

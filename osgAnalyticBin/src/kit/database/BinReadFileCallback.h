@@ -53,7 +53,8 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options);
+    // Sets `isAdded` where there are tiles in the file, and no tile pages it.
+    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options, bool& isAdded);
     struct Expected {
         TileFrame frame;
         osg::ref_ptr<InstalledTile> parent;

@@ -83,8 +83,8 @@ public:
     void setRemoved();
 
     /// Records content that is not merged into the scene yet, with bins by the options and the index of `generation`.
-    /// `isAdded`: the application attaches it itself. When that is done, the next update has the groups that it was
-    /// attached to test it with its siblings.
+    /// `isAdded`: with tiles where there were none, because the application attaches it itself, or no tile pages it.
+    /// When that is done, the next update has the groups that it was attached to test it with its siblings.
     void noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded);
 
     /// Null: there is none, or none yet.

@@ -503,6 +503,7 @@ private:
 std::size_t installBelow(osg::Node& root, const CullOptions& options, const BinIndex* index, bool keepsDatabases) {
     BinInstaller installer(options, index, keepsDatabases);
     installer.installAt(root);
+    if (installer.installed() > 0) TileFamily::expectTilesBelow(root);
     return installer.installed();
 }
 
