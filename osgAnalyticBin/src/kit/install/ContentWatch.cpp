@@ -4,6 +4,7 @@
 #include "ContentWatch.h"
 
 #include "../../core/EarthScale.h"
+#include "../Classes.h"
 #include "../GlmBridge.h"
 #include "../PagedChildren.h"
 #include "../Spheres.h"
@@ -164,6 +165,7 @@ public:
         osg::Matrixd matrix;
         transform.computeLocalToWorldMatrix(matrix, nullptr);
         _sphere = movedSphere(_sphere, matrix);
+        _about.reset();
         _toHere = _toHere * matrix;
     }
 
@@ -175,7 +177,7 @@ public:
         if (reasons & InstalledTile::NeverCulled) return;
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
-        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
+        const AnalyticBin& about = aboutOn(model, callback.getLocalToEcef());
         if (!isOther && isHeld(about, callback.getBin())) return;
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
@@ -209,6 +211,13 @@ private:
         return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
     }
 
+    // Found once for tiles in the same frame.
+    const AnalyticBin& aboutOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
+        if (!_about || localToEcef != _aboutToEcef) _about = binAbout(movedSphere(_sphere, localToEcef), toCore(model));
+        _aboutToEcef = localToEcef;
+        return *_about;
+    }
+
     // Read once, for all tiles above, unless a transform in between has moved since bins were installed.
     const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
         const osg::Matrixd toEcef = _toHere * localToEcef;
@@ -222,6 +231,8 @@ private:
     osg::BoundingSphere _sphere;
     bool _isMerged;
     osg::Matrixd _toHere;
+    std::optional<AnalyticBin> _about;
+    osg::Matrixd _aboutToEcef;  // that it was found with
     std::optional<AnalyticBin> _surface;
     osg::Matrixd _toEcef;  // that the surface was read with
     std::optional<DrawnState> _drawn;
@@ -230,7 +241,8 @@ private:
 // Looks whether all tiles from the node upwards hold what stands among the node's children.
 void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
+        if (isExactly<AnalyticBinCullCallback>(*at))
+            content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback()));
     }
     if (node.asTransform()) content.leave(*node.asTransform());
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
@@ -282,6 +294,16 @@ void keepUnwatchedVisible(const osg::Node& node) {
 void doubtLevelsOf(InstalledTile& tile) {
     const InstalledDatabase& database = tile.database();
     if (!areVouchedFor(Database::of(tile).options(), *database.ellipsoid())) tile.doubt(InstalledTile::GapBelow);
+}
+
+// What OSG keeps for derived classes.
+struct OpenNode : public osg::Node {
+    [[nodiscard]] static bool hasBound(const osg::Node& node) { return node.*(&OpenNode::_boundingSphereComputed); }
+};
+
+// Whether something has changed since the node's bound was computed, as far as OSG is told.
+bool isBoundDue(const osg::Node& node) {
+    return !OpenNode::hasBound(node);
 }
 
 // Whether OSG culls neither the node nor anything above it, as with light sources and absolute transforms.
@@ -387,6 +409,16 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
     return is;
 }
 
+// Its bound is the same as then, too.
+bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
+    return i < _held.size() && _held[i].first == &child && _held[i].second == child.getBound();
+}
+
+void ContentWatch::noteHeld(unsigned int i, const osg::Node& child) const {
+    if (i >= _held.size()) _held.resize(i + 1);
+    _held[i] = {&child, child.getBound()};
+}
+
 void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
     TileFamily::look(node);
@@ -403,6 +435,7 @@ void ContentWatch::check(const osg::Node& node) const {
     bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
+        const bool isDue = isBoundDue(child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
         const ContentWatch* const watch = ownWatchOf(child);
@@ -416,8 +449,10 @@ void ContentWatch::check(const osg::Node& node) const {
         const bool isLevel = paged && isPaged(*paged, i);
         if (isLevel && _tile) doubtLevelsOf(*_tile);
         if (!sphere.valid() && !isNeverCulled(child)) continue;
-        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
         hasMore = hasMore || (!isLevel && isMergedNow());
+        if (!isDue && isOwnFrame && isHeld(i, child)) continue;
+        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        if (isMergedNow()) noteHeld(i, child);
     }
     // a level may be shown in place of those that were read
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);

@@ -8,9 +8,11 @@
 
 #include <osgAnalyticBin/Export.h>
 
+#include <osg/BoundingSphere>
 #include <osg/Node>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -79,6 +81,9 @@ private:
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
     void check(const osg::Node& node) const;
+    // Whether the child was looked at before: it is in the bins of the tiles above, or they are about to be expanded.
+    [[nodiscard]] bool isHeld(unsigned int i, const osg::Node& child) const;
+    void noteHeld(unsigned int i, const osg::Node& child) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
@@ -86,6 +91,7 @@ private:
     std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
     osg::ref_ptr<InstalledTile> _above, _tile;
     std::vector<Fitted> _fitted;
+    mutable std::vector<std::pair<const osg::Node*, osg::BoundingSphere>> _held;  // by the number of the child
     mutable bool _isPending = false;  // something was found before the file was merged
 };
 

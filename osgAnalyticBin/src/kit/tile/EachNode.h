@@ -3,6 +3,12 @@
 
 #pragma once
 
+#include "../Classes.h"
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osgTerrain/TerrainTile>
@@ -19,7 +25,9 @@ void forEachNode(osg::Node& root, const Action& action) {
         }
         void apply(osg::Node& node) override {
             _action(node);
-            if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+            const bool isKnown = isExactly<osg::Group>(node) || isExactly<osg::Geode>(node) ||
+                                 isExactly<osg::MatrixTransform>(node) || isExactly<osg::Geometry>(node);
+            if (isKnown || !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
         }
 
     private:
