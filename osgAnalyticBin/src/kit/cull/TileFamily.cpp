@@ -7,7 +7,6 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../tile/InstalledTile.h"
-#include "CullCallbacks.h"
 #include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
@@ -26,7 +25,7 @@ namespace {
 
 // The first tile of a subgraph. Returns: nullptr where there is none.
 const AnalyticBinCullCallback* firstTile(const osg::Node& node) {
-    const AnalyticBinCullCallback* tile = CullCallbacks(node).bin;
+    const auto* tile = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
     const osg::Group* const group = node.asGroup();
     for (unsigned int i = 0; group && !tile && i < group->getNumChildren(); ++i) tile = firstTile(*group->getChild(i));
     return tile;
