@@ -109,9 +109,10 @@ const Kind kKinds[] = {
      [](test::Random& random) { return randomFrustum(random) * osg::Matrixd::scale(1.0, -1.0, 1.0); }},
     {"infinite far", anyView, [](test::Random& random) { return infiniteFar(random.uniform(0.1, 1.0), 1.0); }},
     {"reversed depth", anyView, [](test::Random& random) { return reversed(randomFrustum(random)); },
-     NearPlane::AtPlusOne},
+     NearPlane::AtPlusOne, false},
     {"reversed depth, infinite far", anyView,
-     [](test::Random& random) { return reversed(infiniteFar(random.uniform(0.1, 1.0), 1.0)); }, NearPlane::AtPlusOne},
+     [](test::Random& random) { return reversed(infiniteFar(random.uniform(0.1, 1.0), 1.0)); }, NearPlane::AtPlusOne,
+     false},
     {"oblique near plane", anyView,
      [](test::Random& random) { return withObliqueNearPlane(randomFrustum(random), random); }},
     {"deep near plane", anyView,
@@ -222,6 +223,15 @@ TEST(Projections, NearAndFarPlanesCullByThemselves) {
 
 osg::Matrixd alongX(double eye) {
     return osg::Matrixd::lookAt(osg::Vec3d(eye, 0, 0), osg::Vec3d(eye + 1.0, 0, 0), osg::Vec3d(0, 0, 1));
+}
+
+// Then OSG's own test of depth, LESS, draws what is farthest.
+TEST(Projections, ReversedDepthHidesNothing) {
+    CameraGlobe globe(test::horizonOptions());
+    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
+    view.projection = reversed(view.projection);
+    EXPECT_EQ(lookOf(globe, view).reached.size(), 128u);
 }
 
 // With near and far computed, OSG draws nothing that is wholly behind the eye of an orthographic camera.

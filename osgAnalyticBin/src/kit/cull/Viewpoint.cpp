@@ -148,6 +148,8 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     const osg::Matrixd& eyeToWorld = *inverse;
     Viewpoint viewpoint;
     if (isPerspective(projection)) {
+        // what is farther away has the greater depth, except where depth is reversed
+        if (!(projection(3, 2) < 0.0)) return std::nullopt;
         // in double precision; the cull stack's own eye point is float
         const osg::Vec3d eye = osg::Vec3d() * eyeToWorld;
         viewpoint._point = toGlm(eye);
