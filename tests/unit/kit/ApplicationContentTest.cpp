@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/Billboard>
+#include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/LightSource>
@@ -225,6 +226,26 @@ TEST_P(NeverCulled, IsALightSource) {
     }
     installBins(*globe.root);
     EXPECT_TRUE(shines(globe, *source->getLight()));
+}
+
+// The picture that it draws, into a texture for instance, is not that of the tile.
+TEST_P(NeverCulled, IsACamera) {
+    FiledGlobe globe;
+    const auto draws = [&] {
+        (void)globe.draws(*globe.tile, beside(ecefDeg(20, 20, 30000.0)));
+        return !globe.visitor->getRenderStage()->getPreRenderList().empty();
+    };
+    EXPECT_FALSE(draws());
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setRenderOrder(osg::Camera::PRE_RENDER);
+    camera->addChild(makeTower(ecefDeg(20, 20, 200.0)));
+    add(globe, *camera);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(draws()) << i;
+        update(*globe.root);
+    }
+    installBins(*globe.root);
+    EXPECT_TRUE(draws());
 }
 
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());

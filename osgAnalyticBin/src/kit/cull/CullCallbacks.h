@@ -15,6 +15,7 @@
 #include <osg/Callback>
 #include <osg/ClusterCullingCallback>
 #include <osg/Node>
+#include <osg/Projection>
 
 namespace osgAnalyticBin {
 
@@ -58,7 +59,9 @@ struct CullCallbacks {
         if (callbacks.isUnknown) drawn = {false, false};
         drawn.hides = drawn.hides && !callbacks.mayLeaveOut;
     }
-    drawn.isCulled = node.getCullingActive();
+    // these have a view or planes of their own, in which the tile above is not
+    const bool hasOwnPicture = node.asCamera() || isExactly<osg::Projection>(node);
+    drawn.isCulled = node.getCullingActive() && !hasOwnPicture;
     return drawn;
 }
 
