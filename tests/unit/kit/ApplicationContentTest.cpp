@@ -92,6 +92,75 @@ TEST(ContentOfMeshes, IsDrawnByANodeOfAnyClass) {
     EXPECT_TRUE(lights->isDrawn);
 }
 
+// Draws beside its children, as osgVolume::VolumeTile does.
+struct Balloon : osg::Group {
+    explicit Balloon(const osg::Vec3d& at) : place(at) {}
+    osg::BoundingSphere computeBound() const override {
+        osg::BoundingSphere bound = osg::Group::computeBound();
+        bound.expandBy(osg::BoundingSphere(place, 50.0f));
+        return bound;
+    }
+    void traverse(osg::NodeVisitor& nv) override {
+        isDrawn = isDrawn || nv.asCullVisitor();
+        osg::Group::traverse(nv);
+    }
+    const osg::Vec3 place;
+    bool isDrawn = false;
+};
+
+TEST(ContentOfMeshes, IsDrawnByAGroupOfAnyClass) {
+    for (const bool hasChild : {false, true}) {
+        MeshGlobe globe;
+        const AboveTheMesh above(globe);
+        const osg::ref_ptr<Balloon> balloon = new Balloon(above.local);
+        if (hasChild) balloon->addChild(makeTower({}));
+        above.mesh.addChild(balloon);
+        installBins(*globe.root);
+        (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 20000.0)));
+        EXPECT_FALSE(balloon->isDrawn);
+        (void)globe.draws(*globe.root, beside(above.place));
+        EXPECT_TRUE(balloon->isDrawn) << hasChild;
+    }
+}
+
+TEST(ContentOfFiles, IsDrawnByAGroupOfAnyClass) {
+    FiledGlobe globe;
+    // beside the sphere of what is below
+    const osg::Vec3d place = ecefDeg(20, 20, 5e6);
+    const osg::ref_ptr<Balloon> balloon = new Balloon(place);
+    balloon->addChild(globe.group);
+    pageOut(*globe.tile);
+    putBelow(*globe.tile, balloon);
+    installBins(*globe.root);
+    update(*globe.root);
+    (void)globe.draws(*globe.root, beside(place));
+    EXPECT_TRUE(balloon->isDrawn);
+}
+
+// Nothing asks for the bounds of what it does not show.
+TEST(ContentOfMeshes, IsNoticedBelowALevelThatIsNotShown) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<osg::LOD> level = new osg::LOD;
+    level->setCenter(above.local);
+    level->setRadius(3e6f);
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    const osg::ref_ptr<osg::Geometry> tower = drawableOf(*makeTower({}))->asGeometry();
+    group->addChild(tower);
+    level->addChild(group, 0.0f, 20000.0f);
+    above.mesh.addChild(level);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.draws(*tower, MeshGlobe::fromAbove()));
+    auto& vertices = static_cast<osg::Vec3Array&>(*tower->getVertexArray());
+    for (osg::Vec3& vertex : vertices) vertex += osg::Vec3(above.local);
+    vertices.dirty();
+    tower->dirtyBound();
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(*tower, beside(above.place))) << i;
+        update(*globe.root);
+    }
+}
+
 // Lies for all visitors but those that draw, for which it stands upright.
 struct Upright : osg::MatrixTransform {
     bool computeLocalToWorldMatrix(osg::Matrix& matrix, osg::NodeVisitor* nv) const override {

@@ -14,6 +14,7 @@
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../surface/TerrainTileSurface.h"
+#include "../surface/SurfaceWalk.h"
 #include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
@@ -441,7 +442,9 @@ void ContentWatch::check(const osg::Node& node) const {
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
-        if (isWatched(child)) continue;
+        if (isWatched(child) && !drawsBesideChildren(child)) continue;
+        // a node whose bound nobody has asked for would not tell of changes
+        if (_tile) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
             continue;

@@ -7,10 +7,14 @@
 #include "../Inverse.h"
 
 #include <osg/Billboard>
+#include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osg/PositionAttitudeTransform>
 #include <osg/ProxyNode>
+#include <osg/Sequence>
+#include <osg/Switch>
+#include <osgTerrain/TerrainTile>
 
 namespace osgAnalyticBin {
 
@@ -18,6 +22,19 @@ bool hasFixedPlace(const osg::Transform& node) {
     return isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform>(node) &&
            node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
            node.getDataVariance() != osg::Object::DYNAMIC;
+}
+
+bool drawsBesideChildren(const osg::Node& node) {
+    const osg::Group* const group = node.asGroup();
+    const bool isKnown =
+        !group || node.asTransform() ||
+        isOneOf<osg::Group, osg::Geode, osg::PagedLOD, osg::LOD, osg::Switch, osg::Sequence, osg::Billboard>(node);
+    // these tell their bounds themselves
+    if (isKnown || dynamic_cast<const osg::LOD*>(&node) || dynamic_cast<const osg::ProxyNode*>(&node) ||
+        dynamic_cast<const osgTerrain::TerrainTile*>(&node))
+        return false;
+    const osg::BoundingSphere own = node.getBound(), below = group->osg::Group::computeBound();
+    return own.valid() && !(own == below);
 }
 
 SurfaceWalk::SurfaceWalk(const osg::Matrixd& localToEcef)
@@ -30,6 +47,7 @@ void SurfaceWalk::apply(osg::Node& node) {
     // Traversed before it has its Terrain, a tile never finds it afterwards; children it does not draw.
     if (auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) return visit(*tile);
     if (!node.asGroup() && !isExactly<osg::Node>(node)) return visitUnknown(node);
+    if (drawsBesideChildren(node)) visitUnknown(node);
     traverse(node);
 }
 

@@ -13,6 +13,10 @@ namespace osgAnalyticBin {
 /// the eye, have no fixed place on the globe.
 [[nodiscard]] bool hasFixedPlace(const osg::Transform& node);
 
+/// Whether a group, of a class that is not known, has a bound that does not end with its children: it may draw there,
+/// too, as osgVolume::VolumeTile does.
+[[nodiscard]] bool drawsBesideChildren(const osg::Node& node);
+
 /// Visits what one tile draws: terrain tiles, which are not traversed, and drawables, with the frame in which they
 /// stand. Masks, ranges and switches are passed over.
 class SurfaceWalk : public osg::NodeVisitor {
@@ -31,7 +35,8 @@ protected:
     virtual void visit(osg::Drawable& drawable) = 0;
     /// Its drawables turn to the eye, each about its own position. By default: giveUp().
     virtual void visitBillboard(osg::Billboard& node);
-    /// It has no children, and may draw anything within its bound, as osgSim::LightPointNode. By default: giveUp().
+    /// It may draw anything within its bound besides its children, as osgSim::LightPointNode, which has none. By
+    /// default: giveUp().
     virtual void visitUnknown(osg::Node& node);
 
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
