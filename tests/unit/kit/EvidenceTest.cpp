@@ -11,8 +11,12 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Geode>
 #include <osg/Geometry>
+#include <osg/PositionAttitudeTransform>
+#include <osg/Switch>
 #include <osg/Texture2D>
+#include <osgTerrain/Terrain>
 
 #include <utility>
 #include <vector>
@@ -177,6 +181,71 @@ TEST(AddedContent, IsNoticedWhereTheApplicationComputesTheBoundOfATile) {
         globe.tiles[19]->setRange(1, 0.0f, 1e10f);
         for (int i = 0; i < 4; ++i) {
             EXPECT_TRUE(globe.draws(*tower, view)) << isOwn << i;
+            update(*globe.root);
+        }
+    }
+}
+
+// All tiles below a node of this class, which is below the root.
+template <class Above>
+osg::ref_ptr<Above> putTilesBelow(MeshGlobe& globe) {
+    osg::ref_ptr<Above> above = new Above;
+    for (const auto& tile : globe.tiles) above->addChild(tile);
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    globe.root->addChild(above);
+    return above;
+}
+
+template <class Above>
+class InGroups : public testing::Test {};
+using Groups = testing::Types<osg::Group, osg::Geode, osg::MatrixTransform, osg::PositionAttitudeTransform,
+                              osgTerrain::Terrain, osg::Switch>;
+TYPED_TEST_SUITE(InGroups, Groups);
+
+TYPED_TEST(InGroups, TilesThatAreTakenAwayAreMissed) {
+    MeshGlobe globe;
+    const auto above = putTilesBelow<TypeParam>(globe);
+    installBins(*globe.root);
+    // a switch may leave out anything
+    const bool drawsAll = !dynamic_cast<osg::Switch*>(above.get());
+    EXPECT_EQ(globe.drawsAntipode(), !drawsAll);
+    above->removeChild(globe.tiles[19]);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
+        update(*globe.root);
+    }
+    EXPECT_EQ(globe.root->getUpdateCallback(), nullptr) << "nothing is left to do";
+}
+
+TYPED_TEST(InGroups, TilesAreMissedWithTheGroup) {
+    MeshGlobe globe;
+    const osg::ref_ptr<TypeParam> above = new TypeParam;
+    above->addChild(globe.tiles[19]);
+    globe.root->replaceChild(globe.tiles[19], above);
+    installBins(*globe.root);
+    (void)globe.drawsAntipode();
+    globe.root->removeChild(above);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
+        update(*globe.root);
+    }
+}
+
+// An application may do so with all nodes.
+TYPED_TEST(InGroups, ContentIsNoticedWhereTheBoundsOfAllNodesAreComputed) {
+    for (const bool isFromTheRoot : {false, true}) {
+        MeshGlobe globe;
+        const auto above = putTilesBelow<TypeParam>(globe);
+        installBins(*globe.root);
+        const osg::Vec3d at = ecefDeg(22.5, -22.5, 300000.0);
+        EXPECT_FALSE(globe.draws(*globe.tiles[19], beside(at)));
+        if (isFromTheRoot) globe.root->setComputeBoundingSphereCallback(new OwnBound);
+        above->setComputeBoundingSphereCallback(new OwnBound);
+        globe.tiles[19]->setComputeBoundingSphereCallback(new OwnBound);
+        const osg::ref_ptr<osg::Node> tower = makeTower(at);
+        globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_TRUE(globe.draws(*tower, beside(at))) << isFromTheRoot << i;
             update(*globe.root);
         }
     }

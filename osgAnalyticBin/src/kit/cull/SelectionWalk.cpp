@@ -77,10 +77,11 @@ TileSelection::Number SelectionWalk::selectBelow(osg::Group& group, const TileFa
 
 void SelectionWalk::selectChildren(osg::Group& group, const TileFamily* family) {
     if (family && !_toEcef && isPassedOver(group, *family)) return;
-    if (family && family->hasLost(group)) doubt();
     const bool isFamily = family && !_toEcef && family->culls(group, _view);
+    if (family && family->hasLost(group, isFamily)) doubt();
     if (isFamily && _keeps && _segment == TileSelection::kNone) return void(selectBelow(group, *family));
     if (isFamily) return selectFamily(group, *family);
+    if (family && _keeps && family->hasChanged(group)) _view.database->noteChanged(group);
     for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
 }
 
@@ -286,7 +287,7 @@ void SelectionWalk::selectInside(osg::Group& group, const TileFamily* family) {
     const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped in(_in, _keeps ? _selection.enter(group, _in, _segment, nullptr, 0) : _in);
-    if (family && family->hasLost(group)) doubt();
+    if (family && family->hasLost(group, true)) doubt();
     if (family) return selectFamily(group, *family);
     for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
 }

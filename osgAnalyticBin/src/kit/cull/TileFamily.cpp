@@ -6,6 +6,7 @@
 #include "../../core/Bits.h"
 #include "../CallbackChain.h"
 #include "../Classes.h"
+#include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
 #include "CullScopes.h"
 #include "CullTraversal.h"
@@ -23,7 +24,26 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// The first tile of a subgraph. Returns: nullptr where there is none.
+const TileFamily* familyOf(const osg::Node& node) {
+    return findCallback<TileFamily>(const_cast<osg::Node&>(node).getCullCallback());
+}
+
+// Whether a node enters all of its children and does nothing else.
+bool isPlain(const osg::Node& node) {
+    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
+}
+
+// Whether there are tiles with bins in a subgraph, where its groups have got their families.
+bool holdsTiles(const osg::Node& node) {
+    if (installedTileOf(node) || familyOf(node)) return true;
+    const osg::Group* const group = TileFamily::isPossibleOn(node) ? nullptr : node.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (holdsTiles(*group->getChild(i))) return true;
+    }
+    return false;
+}
+
+// The first tile of a subgraph, with a family above it or without. Returns: nullptr where there is none.
 const AnalyticBinCullCallback* firstTile(const osg::Node& node) {
     const auto* tile = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
     const osg::Group* const group = node.asGroup();
@@ -39,26 +59,28 @@ TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
 TileFamily::~TileFamily() = default;
 
 bool TileFamily::isPossibleOn(const osg::Node& node) {
-    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
+    return node.asGroup() && drawsAllChildren(node) && !isExactly<Carrier>(node);
 }
 
-TileFamily::TileFamily(osg::Group& group)
+TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     : _group(&group),
       _block(new TileBlock(group.getNumChildren())),
       _nodes(group.getNumChildren()),
       _tiles(group.getNumChildren()) {
-    const unsigned int children = group.getNumChildren();
+    const unsigned int children = isPlain(group) ? group.getNumChildren() : 0;
     for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
-    if (!hasSameChildren(group)) _block->columnUnion().addDoubts(1);
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
+        _hasOthers = addOther(*group.getChild(i), i, old) || _hasOthers;
+    if (isPlain(group)) findWithoutTiles(group, old);
+    if (_hasOthers || !hasSameChildren(group)) _block->columnUnion().addDoubts(1);
 }
 
 bool TileFamily::place(osg::Node& node) {
     remove(node);
     if (!isPossibleOn(node)) return false;
-    const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
-    family->findOthers(*node.asGroup(), nullptr);
-    const bool isUsed = family->isUsed();
+    const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup(), nullptr);
+    const bool isUsed = family->_hasTiles || family->_hasGroups || family->_hasOthers;
     if (isUsed) node.addCullCallback(family);
     return isUsed;
 }
@@ -70,21 +92,6 @@ void TileFamily::remove(osg::Node& node) {
         // what the group shows is no longer held there
         if (columns && columns->above()) columns->above()->addDoubts(1);
         if (columns) columns->setAbove(nullptr);
-    }
-}
-
-void TileFamily::findOthers(const osg::Group& group, const TileFamily* before) {
-    std::unordered_set<const osg::Node*> known;
-    if (before) known.insert(before->_withoutTiles.begin(), before->_withoutTiles.end());
-    _withoutTiles.resize(_nodes.size());
-    for (unsigned int i = 0; i < _nodes.size(); ++i) {
-        const osg::Node* const child = group.getChild(i);
-        if (_nodes[i]) continue;
-        const AnalyticBinCullCallback* const tile = known.count(child) == 0 ? firstTile(*child) : nullptr;
-        if (!tile) _withoutTiles[i] = child;
-        _hasTilesBelow = _hasTilesBelow || tile;
-        _hasOthers = _hasOthers || !tile;
-        if (tile && !_ellipsoid) _ellipsoid = tile->ellipsoid();
     }
 }
 
@@ -107,14 +114,14 @@ void TileFamily::renew(osg::Node& node) {
     old->_block->columnUnion().setAbove(nullptr);
     remove(node);
     osg::Group& group = *node.asGroup();
-    const osg::ref_ptr<TileFamily> family = new TileFamily(group);
+    const osg::ref_ptr<TileFamily> family = new TileFamily(group, old);
     family->_hasLostTiles =
         old->_hasLostTiles || std::any_of(old->_nodes.begin(), old->_nodes.end(),
                                           [&](const auto& tile) { return tile && !group.containsNode(tile); });
     if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
     if (above) family->_block->columnUnion().setAbove(above);
-    family->findOthers(group, old);
-    if (family->isUsed() || family->_hasLostTiles) node.addCullCallback(family);
+    if (family->_hasTiles || family->_hasGroups || family->_hasOthers || family->_hasLostTiles)
+        node.addCullCallback(family);
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
@@ -129,22 +136,65 @@ bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
     return true;
 }
 
+// Its tiles are tested by their own callbacks. A family that is made anew looks only below children that the old one
+// knows: among models that the application adds there may be many nodes, and tiles that it adds cover nothing.
+bool TileFamily::addOther(osg::Node& child, std::size_t slot, const TileFamily* old) {
+    const auto isKnown = [&](const TileFamily& family) {
+        return std::find(family._nodes.begin(), family._nodes.end(), &child) != family._nodes.end();
+    };
+    if (_nodes[slot] || (old && !isKnown(*old)) || !holdsTiles(child)) return false;
+    _nodes[slot] = &child;
+    return true;
+}
+
+// A family with both kinds of children keeps walks away from models, even where it has no tiles to test.
+void TileFamily::findWithoutTiles(const osg::Group& group, const TileFamily* old) {
+    std::unordered_set<const osg::Node*> known;
+    if (old) known.insert(old->_withoutTiles.begin(), old->_withoutTiles.end());
+    _withoutTiles.resize(_nodes.size());
+    for (unsigned int i = 0; i < _nodes.size(); ++i) {
+        const osg::Node* const child = group.getChild(i);
+        const bool isKnown = _nodes[i] || known.count(child) != 0;
+        const AnalyticBinCullCallback* const tile = isKnown && _ellipsoid ? nullptr : firstTile(*child);
+        if (tile && !_ellipsoid) _ellipsoid = tile->ellipsoid();
+        if (!_nodes[i] && (isKnown || !tile)) _withoutTiles[i] = child;
+    }
+}
+
 bool TileFamily::hasSameChildren(const osg::Group& group) const {
     bool isSame = group.getNumChildren() == _nodes.size();
     for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i) isSame = group.getChild(i) == _nodes[i];
     return isSame;
 }
 
-bool TileFamily::hasLost(const osg::Group& group) const {
-    // tiles are looked for when they are tested
-    const bool hasLostGroup =
-        _hasGroups && !hasSameChildren(group) &&
+bool TileFamily::hasChanged(const osg::Group& group) const {
+    bool isSame = group.getNumChildren() == _nodes.size();
+    for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i)
+        isSame = !_nodes[i] || group.getChild(i) == _nodes[i];
+    return !isSame;
+}
+
+bool TileFamily::hasLost(const osg::Group& group, bool areTilesTested) const {
+    const bool isLookedFor = _hasGroups || _hasOthers || !areTilesTested;
+    const bool hasLostOne =
+        isLookedFor && hasChanged(group) &&
         std::any_of(_nodes.begin(), _nodes.end(), [&](const auto& node) { return node && !group.containsNode(node); });
-    return _hasLostTiles || hasLostGroup;
+    return _hasLostTiles || hasLostOne;
+}
+
+bool TileFamily::needsWatch(const osg::Node& group) {
+    const TileFamily* const family = familyOf(group);
+    return family && (family->_hasTiles || family->_hasGroups);
+}
+
+bool TileFamily::holds(const osg::Node& group, unsigned int child) {
+    const TileFamily* const family = familyOf(group);
+    return family && family->_group == &group && child < family->size() &&
+           family->_nodes[child] == group.asGroup()->getChild(child);
 }
 
 void TileFamily::look(const osg::Node& node) {
-    const TileFamily* const family = findCallback<TileFamily>(const_cast<osg::Node&>(node).getCullCallback());
+    const TileFamily* const family = familyOf(node);
     if (!family || family->_group != &node || family->hasSameChildren(*node.asGroup())) return;
     if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
 }
@@ -188,7 +238,8 @@ bool TileFamily::culls(const osg::Node& group, const DatabaseView& view) const {
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
     return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
            view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
-           view.ellipsoid == *_ellipsoid && (!_shape || *_shape == view.shape) && !hasActiveOccluders(cullStack);
+           _ellipsoid && view.ellipsoid == *_ellipsoid && (!_shape || *_shape == view.shape) &&
+           !hasActiveOccluders(cullStack);
 }
 
 void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {

@@ -26,10 +26,12 @@ namespace osgAnalyticBin {
 struct DatabaseView;
 
 /// The cull callback of a group with tiles among its children, which are tested together, and what is known of the
-/// tiles. On a group of groups with tiles it holds the union of their columns. Where OSG's traversal comes to the
-/// group, the callback draws what was selected below it, or selects it now. The tiles' own callbacks are used for
-/// children that it does not know, in another frame than that of the database, with occluders, and with callbacks
-/// behind it. It reports the class name of a plain osg::NodeCallback, so that saved scenes do not contain it.
+/// tiles. On a group of groups with tiles it holds the union of their columns. On all groups that enter all of their
+/// children, whatever class they are of, it notices where a tile, or what is above tiles, is taken away. Where OSG's
+/// traversal comes to the group, the callback draws what was selected below it, or selects it now. The tiles' own
+/// callbacks are used for children that it does not know, in another frame than that of the database, with occluders,
+/// and with callbacks behind it. It reports the class name of a plain osg::NodeCallback, so that saved scenes do not
+/// contain it.
 /// Guarantee: it culls the tiles that their own callbacks would cull; tests: TileFamily.*. Threads: run() changes
 /// nothing in the callback.
 class TileFamily final : public osg::NodeCallback {
@@ -38,13 +40,12 @@ public:
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new TileFamily(*this, copyop); }
 
-    /// Whether the node is a plain group, which enters all of its children and does nothing else.
+    /// Whether the node is a group that enters all of its children.
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
-    /// is not possible, or no child is a tile with a bin in the group's own frame, ECEF, or a group with a family, and
-    /// there are not both children with tiles below them and children without. Families of children have to be placed
-    /// before. Returns: whether there is one.
+    /// is not possible, or no tile with a bin is below. Families of children have to be placed before. Returns: whether
+    /// there is one.
     static bool place(osg::Node& node);
 
     /// Removes the family.
@@ -101,6 +102,12 @@ public:
     [[nodiscard]] const osg::Node& node(unsigned int i) const { return *_nodes[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
+    /// Whether a group has a family that has to notice changes among the children. Others are only above groups,
+    /// perhaps deep in each other, where watches would need much stack.
+    [[nodiscard]] static bool needsWatch(const osg::Node& group);
+    /// Whether the family of a group, if it has one, knows a child for a tile or for a node above tiles.
+    [[nodiscard]] static bool holds(const osg::Node& group, unsigned int child);
+
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
     static void look(const osg::Node& node);
 
@@ -109,12 +116,14 @@ public:
     /// The same for the family of any group. Returns: nullptr also where the group has no family.
     [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
 
-    /// Whether a tile, or a group of tiles, was removed from the group since bins were installed: the terrain may have
-    /// a hole.
-    [[nodiscard]] bool hasLost(const osg::Group& group) const;
+    /// Whether a tile, or a node above tiles, was removed from the group since bins were installed: the terrain may
+    /// have a hole. `areTilesTested`: test() looks for the tiles of the family.
+    [[nodiscard]] bool hasLost(const osg::Group& group, bool areTilesTested) const;
+    /// Whether children were added or taken away since the family was made.
+    [[nodiscard]] bool hasChanged(const osg::Group& group) const;
 
-    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile
-    /// that is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
+    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile that
+    /// is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
     [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child) const {
         return slot < _withoutTiles.size() && _withoutTiles[slot] == &child;
     }
@@ -129,14 +138,13 @@ protected:
     ~TileFamily() override;
 
 private:
-    explicit TileFamily(osg::Group& group);
-    // Looks what is below children that are neither tiles nor groups with families. `before`: the family that the
-    // group had; null: none.
-    void findOthers(const osg::Group& group, const TileFamily* before);
-    // Whether it has tiles to test, or something to keep walks away from.
-    [[nodiscard]] bool isUsed() const { return _hasTiles || _hasGroups || (_hasTilesBelow && _hasOthers); }
+    // `old`: the family in whose place this one comes; null: none.
+    TileFamily(osg::Group& group, const TileFamily* old);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
+    [[nodiscard]] bool addOther(osg::Node& child, std::size_t slot, const TileFamily* old);
+    void findWithoutTiles(const osg::Group& group, const TileFamily* old);
+    // Whether all are tiles, or above tiles.
     [[nodiscard]] bool hasSameChildren(const osg::Group& group) const;
     // Of these tiles, those that may be hidden now.
     [[nodiscard]] std::uint64_t hideable(unsigned int first, std::uint64_t tiles) const;
@@ -146,12 +154,11 @@ private:
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;
     bool _hasGroups = false;
-    bool _hasTilesBelow = false;  // below other children
-    bool _hasOthers = false;      // children without tiles
+    bool _hasOthers = false;  // above tiles that are not tested here
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // one for each child
-    // references, so that no address is used again; null: neither a tile nor a group with a family
+    // references, so that no address is used again; null: no tile is there or below
     std::vector<osg::ref_ptr<osg::Node>> _nodes;
     std::vector<FamilyTile> _tiles;
     std::vector<const osg::Node*> _withoutTiles;  // null: there may be tiles

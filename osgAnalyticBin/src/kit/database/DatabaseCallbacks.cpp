@@ -16,6 +16,7 @@
 #include "../cull/SelectionWalk.h"
 #include "../cull/ShownDepth.h"
 #include "../cull/Viewpoint.h"
+#include "../tile/BoundWatch.h"
 
 #include <osgAnalyticBin/core/occlusion/BinBody.h>
 
@@ -369,6 +370,11 @@ void DatabaseCullCallback::leaveToOsg(osg::Node& node, osg::NodeVisitor& nv) {
 void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack) {
     // makes tiles notice what was added below them
     (void)node.getBound();
+    if (!BoundWatch::isOn(node)) {
+        // the application has replaced the watch, and perhaps others: the next update places them anew
+        _database->requestRefit();
+        return leaveToOsg(node, nv);
+    }
     beginWithAllPlanes(cullStack);
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();

@@ -129,8 +129,7 @@ public:
         if (isNamed && _installed == 0 && _paging.empty()) _coverage->clear();
         finish();
         // tiles may be added also while other methods cull
-        if (!isGlobe && _database && (installsBins() || isNamed))
-            attachDatabase(root, *_database, isNamed && installsBins());
+        if (!isGlobe && _database && (installsBins() || isNamed)) attach(root, *_database, isNamed && installsBins());
     }
 
     void apply(osg::Node& node) override {
@@ -190,9 +189,9 @@ public:
         finish();
         if (isRefit) return;
         const bool hasTiles = _installed > before || !_paging.empty() || _options.globe;
-        if (installsBins() && hasTiles) return attachDatabase(node, *own, true);
+        if (installsBins() && hasTiles) return attach(node, *own, true);
         // tiles that are on their way may have bins
-        if (isKept) attachDatabase(node, *own, false);
+        if (isKept) attach(node, *own, false);
     }
 
 protected:
@@ -214,13 +213,15 @@ protected:
             removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
         // some groups compute their bounds without their children
         const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
-        if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
+        const bool isRoot = _database && _database->root() == &node;
+        if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent || isRoot)) {
             ContentWatch::place(node, {}, _parent, _parent);
         } else {
             ContentWatch::remove(node);
         }
         TileFamily::remove(node);
-        if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
+        const bool isInMesh = _isInMesh && !isExactly<osg::Group>(node);
+        if (installsBins() && !isInMesh && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
         noteBetween(node);
         visitWithoutBin(node, false);
     }
@@ -315,7 +316,7 @@ private:
     // upwards.
     void placeFamilies() {
         for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
-            osg::Node& group = **at;
+            osg::Group& group = *(*at)->asGroup();
             if (!TileFamily::place(group)) continue;
             Database::trustMeshes(group);
             watchFamily(group);
@@ -323,9 +324,14 @@ private:
         _groups.clear();
     }
 
-    // It notices where the application takes the watch of a tile away.
-    static void watchFamily(osg::Node& group) {
-        if (findCallback<TileFamily>(group.getCullCallback()) && !ContentWatch::isOn(group))
+    // The database's cull callback notices where the application takes the watch of the root away.
+    static void attach(osg::Node& root, Database& database, bool isCulling) {
+        if (isCulling && !ContentWatch::isOn(root)) ContentWatch::place(root, {}, nullptr, nullptr);
+        attachDatabase(root, database, isCulling);
+    }
+
+    static void watchFamily(osg::Group& group) {
+        if (TileFamily::needsWatch(group) && !ContentWatch::isOn(group))
             ContentWatch::place(group, {}, nullptr, nullptr);
     }
 

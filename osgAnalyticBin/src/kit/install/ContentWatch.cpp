@@ -4,6 +4,7 @@
 #include "ContentWatch.h"
 
 #include "../../core/EarthScale.h"
+#include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../GlmBridge.h"
 #include "../PagedChildren.h"
@@ -13,8 +14,8 @@
 #include "../cull/TileFamily.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
-#include "../surface/TerrainTileSurface.h"
 #include "../surface/SurfaceWalk.h"
+#include "../surface/TerrainTileSurface.h"
 #include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
@@ -367,6 +368,8 @@ osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
 
 bool ContentWatch::hasNewContent(const osg::Node& node) {
     const ContentWatch* const watch = watchOf(node);
+    // nobody knows what was added where the application has replaced the watch
+    if (!watch && culledNodeOf(node)) return true;
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
@@ -436,15 +439,17 @@ void ContentWatch::check(const osg::Node& node) const {
     bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        const bool isDue = isBoundDue(child);
+        const bool isUnchanged = isOwnFrame && !isBoundDue(child) && isHeld(i, child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
+        // it would look after what is below, if it had a watch
+        if (!watchOf(child) && TileFamily::holds(node, i)) forEachPart(child, keepUnwatchedVisible);
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
         if (isWatched(child) && !drawsBesideChildren(child)) continue;
         // a node whose bound nobody has asked for would not tell of changes
-        if (_tile) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
+        if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
             continue;
@@ -453,7 +458,7 @@ void ContentWatch::check(const osg::Node& node) const {
         if (isLevel && _tile) doubtLevelsOf(*_tile);
         if (!sphere.valid() && !isNeverCulled(child)) continue;
         hasMore = hasMore || (!isLevel && isMergedNow());
-        if (!isDue && isOwnFrame && isHeld(i, child)) continue;
+        if (isUnchanged) continue;
         fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
         if (isMergedNow()) noteHeld(i, child);
     }
