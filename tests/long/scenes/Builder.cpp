@@ -151,16 +151,34 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
     return camera;
 }
 
+osg::ref_ptr<osg::Group> makeGroup(int kind) {
+    switch (kind) {
+        case 1:
+            return new osg::MatrixTransform;
+        case 2:
+            return new osg::PositionAttitudeTransform;
+        case 3:
+            return new osg::Geode;
+        case 4:
+            return new osg::Switch;
+        case 5:
+            return new CastingGroup;
+        default:
+            return new osg::Group;
+    }
+}
+
 // Each group is above four of the next level. Returns: the lowest above a tile.
-osg::Group& groupAbove(const TileKey& tile, int depth, osg::Group& globe,
+osg::Group& groupAbove(const TileKey& tile, int depth, int kind, osg::Group& globe,
                        std::map<std::string, osg::ref_ptr<osg::Group>>& groups) {
     if (depth == 0) return globe;
     const TileKey above = tile.parent();
     const std::string name = nodeName(Hook::Above, above);
     osg::ref_ptr<osg::Group>& group = groups[name];
     if (!group) {
-        group = named<osg::Group>(name);
-        groupAbove(above, depth - 1, globe, groups).addChild(group);
+        group = makeGroup(kind);
+        group->setName(name);
+        groupAbove(above, depth - 1, kind, globe, groups).addChild(group);
     }
     return *group;
 }
@@ -200,6 +218,7 @@ void Builder::addTiles(int number, osg::Group& globe) const {
     };
     const auto tree = std::find_if(_description.parts.begin(), _description.parts.end(), isTree);
     const int depth = tree == _description.parts.end() ? 0 : tree->variant;
+    const int kind = depth == 0 ? 0 : static_cast<int>(tree->amount);
     std::map<std::string, osg::ref_ptr<osg::Group>> groups;
     for (int row = 0; row < database.rows; ++row) {
         std::vector<osg::ref_ptr<osg::Node>> own;
@@ -210,7 +229,7 @@ void Builder::addTiles(int number, osg::Group& globe) const {
         }
         for (int column = 0; column < database.shownColumns; ++column) {
             const TileKey tile{number, 0, column, row};
-            groupAbove(tile, depth, globe, groups).addChild(rootTile(tile, tiles));
+            groupAbove(tile, depth, kind, globe, groups).addChild(rootTile(tile, tiles));
         }
     }
 }

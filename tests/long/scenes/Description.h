@@ -102,7 +102,7 @@ enum class PartKind {
     Again,     // the whole database a second time, elsewhere
     MovingTiles,
     Caster,     // a group that casts the visitors that it meets
-    GroupTree,  // plain groups above the tiles of a database
+    GroupTree,  // groups above the tiles of a database
     // what tiles draw
     MeshHole,
     ReversedFaces,
@@ -217,6 +217,9 @@ struct Description {
 
 /// Variants of cameras in the scene from this number on let near and far planes be computed where the view does.
 constexpr int kFixedCameras = 9;
+
+/// Classes of the groups of a GroupTree, by its amount: plain groups, and others.
+constexpr int kGroupClasses = 6;
 
 /// Whether parts of a kind are built by makeModel().
 [[nodiscard]] bool isModel(PartKind kind);

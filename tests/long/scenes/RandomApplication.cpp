@@ -27,12 +27,13 @@ public:
 
     void addSubject() {
         using Subject = void (ApplicationMaker::*)();
-        static constexpr std::array<Subject, 15> kSubjects{
+        static constexpr std::array<Subject, 16> kSubjects{
             &ApplicationMaker::addMeshes,    &ApplicationMaker::addMeshes,   &ApplicationMaker::addStates,
             &ApplicationMaker::addStates,    &ApplicationMaker::addFacing,   &ApplicationMaker::addCullCallbacks,
             &ApplicationMaker::addBounds,    &ApplicationMaker::addDrawable, &ApplicationMaker::addCasters,
             &ApplicationMaker::addFiles,     &ApplicationMaker::addSigns,    &ApplicationMaker::addRaise,
-            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVisitor,  &ApplicationMaker::addUnculled};
+            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVisitor,  &ApplicationMaker::addUnculled,
+            &ApplicationMaker::addVanish};
         _number = _random.integer(0, static_cast<int>(_description.databases.size()) - 1);
         _tile = randomTile(_random, database(), _number, anyLevel());
         (this->*_random.pick(kSubjects))();
@@ -184,8 +185,10 @@ private:
 
     // A tower of which the bound callback may keep the kit from hearing.
     void addBounds() {
-        static constexpr std::array<Hook, 5> kHooks{Hook::Tile, Hook::Own, Hook::Mesh, Hook::Geode, Hook::Globe};
+        static constexpr std::array<Hook, 8> kHooks{Hook::Tile,  Hook::Own,   Hook::Mesh, Hook::Geode,
+                                                    Hook::Globe, Hook::Above, Hook::File, Hook::Slot};
         drop(PartKind::SaveAndLoad);
+        if (_random.chance(0.3)) addGroupTree();
         const bool isCleared = _random.chance(0.4);
         const int frame = isCleared ? _random.integer(1, _frames) : anyFrame();
         if (!isCleared || _random.chance(0.3)) add(PartKind::BoundCallback, _random.pick(kHooks)).frame = frame;
@@ -280,6 +283,7 @@ private:
     void addGroupTree() {
         Part& part = add(PartKind::GroupTree, Hook::Globe);
         part.variant = _random.integer(1, 3);
+        if (_random.chance(0.5)) part.amount = _random.integer(1, kGroupClasses - 1);
         const double more = _random.uniform();
         if (more < 0.3) {
             Part& state = add(PartKind::State, Hook::Above);
@@ -291,6 +295,17 @@ private:
             callback.frame = anyFrame();
             callback.variant = _random.integer(0, 3);
         }
+    }
+
+    // Tiles, parts of them, and groups above them.
+    void addVanish() {
+        static constexpr std::array<Hook, 8> kHooks{Hook::Tile,     Hook::Tile,  Hook::Own,  Hook::Mesh,
+                                                    Hook::Drawable, Hook::Above, Hook::Slot, Hook::File};
+        const Hook hook = _random.pick(kHooks);
+        if (hook == Hook::Above || _random.chance(0.3)) addGroupTree();
+        Part& part = add(PartKind::Vanish, hook);
+        part.frame = _random.integer(1, _frames);
+        part.variant = _random.integer(0, 3);
     }
 
     void addVisitor() {
