@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/Geometry>
+#include <osg/Image>
 #include <osg/PagedLOD>
 #include <osg/Shape>
 #include <osgTerrain/GeometryTechnique>
@@ -21,6 +22,7 @@
 #include <osgTerrain/Terrain>
 #include <osgTerrain/ValidDataOperator>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -217,16 +219,39 @@ void pageTile(TerrainGlobe& globe, std::size_t i) {
     globe.terrain->replaceChild(globe.row[i], paged);
 }
 
-TEST(OccludingTerrainTiles, NeedHeightsThatAreAsTheyWere) {
+osg::ref_ptr<osgTerrain::ImageLayer> makeImageLayer(TerrainTile& tile, unsigned char alpha) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    std::fill_n(image->data(), 16, alpha);
+    const osg::ref_ptr<osgTerrain::ImageLayer> layer = new osgTerrain::ImageLayer(image);
+    layer->setLocator(tile.getElevationLayer()->getLocator());
+    return layer;
+}
+
+TEST(OccludingTerrainTiles, HideNothingWhereTheTerrainHasThemBlended) {
+    for (const bool isLater : {false, true}) {
+        TerrainGlobe globe;
+        if (!isLater) globe.terrain->setBlendingPolicy(TerrainTile::ENABLE_BLENDING);
+        installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+        EXPECT_EQ(globe.drawsFarTile(), !isLater);
+        globe.terrain->setBlendingPolicy(TerrainTile::ENABLE_BLENDING);
+        for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile()) << isLater << frame;
+    }
+}
+
+TEST(OccludingTerrainTiles, NeedHeightsAndImagesThatAreAsTheyWere) {
     using TileChange = std::function<void(TerrainTile&)>;
     const std::vector<TileChange> changes{
         [](TerrainTile& tile) { setHeights(tile, 0.0f); },
         [](TerrainTile& tile) { tile.setElevationLayer(makePlain(0.0, 0.2, 0.4, 0.6, 9)->getElevationLayer()); },
+        [](TerrainTile& tile) { tile.setBlendingPolicy(TerrainTile::ENABLE_BLENDING); },
+        [](TerrainTile& tile) { tile.setColorLayer(0, makeImageLayer(tile, 127)); },
     };
     for (std::size_t i = 0; i < changes.size(); ++i) {
         for (const bool isPaged : {false, true}) {
             TerrainGlobe globe;
             if (isPaged) pageTile(globe, 2);
+            globe.row[2]->setColorLayer(0, makeImageLayer(*globe.row[2], 255));
             installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
             EXPECT_FALSE(globe.drawsFarTile());
             changes[i](*globe.row[2]);

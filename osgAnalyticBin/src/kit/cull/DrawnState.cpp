@@ -210,11 +210,11 @@ bool hasAlpha(const osg::Image& image) {
     return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
 }
 
-// As the technique decides, by the first image.
+// As the technique decides, by the first image. Where the tile leaves it to the Terrain, which it knows only once it
+// has been traversed, the database asks that in each view.
 bool isBlended(const osgTerrain::TerrainTile& tile) {
     using Tile = osgTerrain::TerrainTile;
-    Tile::BlendingPolicy policy = tile.getBlendingPolicy();
-    if (policy == Tile::INHERIT && tile.getTerrain()) policy = tile.getTerrain()->getBlendingPolicy();
+    const Tile::BlendingPolicy policy = tile.getBlendingPolicy();
     if (policy == Tile::DO_NOT_SET_BLENDING) return false;
     if (policy == Tile::ENABLE_BLENDING) return true;
     for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {

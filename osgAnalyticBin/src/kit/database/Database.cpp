@@ -157,6 +157,11 @@ TerrainShape Database::shape(const CullOptions& options) const {
             vouchedMargin.value_or(isKnown ? 0.0 : HUGE_VAL)};
 }
 
+bool Database::isTerrainBlended() const {
+    osg::ref_ptr<osgTerrain::Terrain> terrain;
+    return _terrain.lock(terrain) && terrain->getBlendingPolicy() == osgTerrain::TerrainTile::ENABLE_BLENDING;
+}
+
 TerrainShape Database::fittedShape() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return _fittedShape;

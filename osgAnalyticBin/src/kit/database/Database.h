@@ -98,6 +98,10 @@ public:
     /// because the application may change the Terrain at the same time.
     [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
 
+    /// Whether the Terrain, if any, has all of its tiles blended that do not say otherwise. Not for pager threads
+    /// either.
+    [[nodiscard]] bool isTerrainBlended() const;
+
     /// The shape at the last update traversal, which tiles are fitted to. For any thread.
     [[nodiscard]] TerrainShape fittedShape() const;
 

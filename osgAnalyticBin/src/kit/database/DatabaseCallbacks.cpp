@@ -137,8 +137,8 @@ const char* missingToHide(const DatabaseView& view, Database& database, const Cu
     const bool isRelyingOnStrays = (database.has(Finding::Gap) || view.region) && database.has(Finding::StrayTile);
     if (isRelyingOnStrays) return "tiles that stand in one place each";
     if (isAltered(view.visitor.getNodePath())) return "no cull callbacks at the root of the database and above";
-    return drawnStateAbove(view.visitor, view.rules).hides ? nullptr
-                                                           : "filled and opaque terrain, and declared shaders";
+    const bool hides = !database.isTerrainBlended() && drawnStateAbove(view.visitor, view.rules).hides;
+    return hides ? nullptr : "filled and opaque terrain, and declared shaders";
 }
 
 // `unknown`: of unknown depth; null: the camera's settings are the reason.

@@ -26,7 +26,9 @@
 #include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
+#include <osg/Image>
 #include <osg/Transform>
+#include <osgTerrain/Layer>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
@@ -89,11 +91,23 @@ std::uint64_t frameOf(const osg::Node& node) {
     return hash;
 }
 
-// By what OSG tells that vertices and triangles have changed; of osgTerrain tiles, the heights.
+// What the technique of an osgTerrain tile blends by.
+void mixBlending(std::uint64_t& hash, const osgTerrain::TerrainTile& tile) {
+    mix(hash, static_cast<std::uint64_t>(tile.getBlendingPolicy()));
+    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
+        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
+        const osg::Image* const image = layer ? layer->getImage() : nullptr;
+        mix(hash, reinterpret_cast<std::uintptr_t>(image));
+        mix(hash, std::uint64_t{image ? image->getModifiedCount() : 0});
+    }
+}
+
+// By what OSG tells that vertices and triangles have changed; of osgTerrain tiles, the heights and images.
 void mixSurface(std::uint64_t& hash, const osg::Node& part) {
     if (const auto* const terrain = asTerrain(part)) {
         mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
         mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
+        mixBlending(hash, *terrain);
     }
     if (const auto* const billboard = dynamic_cast<const osg::Billboard*>(&part)) {
         for (const osg::Vec3& position : billboard->getPositionList()) {
