@@ -76,11 +76,11 @@ TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     if (_hasOthers || !hasSameChildren(group)) _block->columnUnion().addDoubts(1);
 }
 
-bool TileFamily::place(osg::Node& node) {
+bool TileFamily::place(osg::Node& node, bool isAdded) {
     remove(node);
     if (!isPossibleOn(node)) return false;
     const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup(), nullptr);
-    const bool isUsed = family->_hasTiles || family->_hasGroups || family->_hasOthers;
+    const bool isUsed = family->_hasTiles || family->_hasGroups || (family->_hasOthers && !isAdded);
     if (isUsed) node.addCullCallback(family);
     return isUsed;
 }
@@ -108,7 +108,7 @@ void TileFamily::expectTilesBelow(osg::Node& node) {
 void TileFamily::renew(osg::Node& node) {
     expectTilesBelow(node);
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
-    if (!old) (void)place(node);
+    if (!old) (void)place(node, true);
     if (!old || old->_group != &node) return;
     const osg::ref_ptr<ColumnUnion> above = old->_block->columnUnion().above();
     old->_block->columnUnion().setAbove(nullptr);

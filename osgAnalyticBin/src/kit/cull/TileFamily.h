@@ -44,9 +44,10 @@ public:
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
-    /// is not possible, or no tile with a bin is below. Families of children have to be placed before. Returns: whether
-    /// there is one.
-    static bool place(osg::Node& node);
+    /// is not possible, or no tile with a bin is below. Families of children have to be placed before. `isAdded`: the
+    /// tiles were added by the application and are not missed, so that there need be none on groups that only are above
+    /// tiles. Returns: whether there is one.
+    static bool place(osg::Node& node, bool isAdded);
 
     /// Removes the family.
     static void remove(osg::Node& node);

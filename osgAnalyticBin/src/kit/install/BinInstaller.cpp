@@ -317,7 +317,7 @@ private:
     void placeFamilies() {
         for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
             osg::Group& group = *(*at)->asGroup();
-            if (!TileFamily::place(group)) continue;
+            if (!TileFamily::place(group, _isReading && !_parent)) continue;
             Database::trustMeshes(group);
             watchFamily(group);
         }
