@@ -327,7 +327,7 @@ FAULTS = [
     Fault("region: the horizon passes the border", "src/core/horizon/CoveredRegion.cpp",
           "> data.sinDip + kSlack)) return false;", "> 0.0)) return false;", SCENES, NAMED),
     Fault("region: terrain hides from beside", "src/occlusion/TerrainOcclusion.cpp",
-          "view.region && !view.region->holdsSegmentsFrom(view.eye)", "false", NODE, "RegionalTerrain.*"),
+          "view.region && !view.region->holdsSegmentsFrom(view.eye)", "false", SCENES, NAMED),
     Fault("region: a missing tile leaves a region", "src/kit/install/Coverage.cpp",
           "return areaOf(place) - areaOf(within) <= kRounding * areaOf(place);",
           "return areaOf(place) - areaOf(within) <= (1.0 + kRounding) * areaOf(place);",
