@@ -3,6 +3,8 @@
 
 #include "DatabaseCheck.h"
 
+#include "Program.h"
+
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <glm/geometric.hpp>
@@ -167,6 +169,20 @@ void checkLod(const LoadedTile& tile) {
 
 }  // namespace
 
+LoadedDatabase databaseOf(std::vector<std::string> words) {
+    const TempFolder folder;
+    words.insert(words.end(), {"-o", folder.file("earth.osgb")});
+    build(words);
+    return loadDatabase(folder.file("earth.osgb"));
+}
+
+LoadedDatabase databaseOf(const TestRaster& raster, std::vector<std::string> options) {
+    const TempFolder folder;
+    raster.write(folder.file("raster.tif"));
+    options.insert(options.begin(), folder.file("raster.tif"));
+    return databaseOf(options);
+}
+
 void checkBins(const LoadedDatabase& database, const SourceRange& source) {
     const Ellipsoid ellipsoid = database.ellipsoid();
     database.forEach([&](const LoadedTile& tile) {
@@ -210,4 +226,8 @@ void checkDatabase(const LoadedDatabase& database, const SourceRange& source) {
     checkBins(database, source);
     checkSharedPosts(database);
     checkNodes(database);
+}
+
+void checkDatabase(const LoadedDatabase& database, const TestRaster& source) {
+    checkDatabase(database, [&source](const Rect& rect) { return source.range(rect); });
 }

@@ -6,12 +6,19 @@
 #include "DatabaseWalk.h"
 
 #include <functional>
+#include <string>
+#include <vector>
+
+/// Builds a database by a command line without -o, and loads it; of a raster, which is put before the options.
+[[nodiscard]] LoadedDatabase databaseOf(std::vector<std::string> words);
+[[nodiscard]] LoadedDatabase databaseOf(const TestRaster& raster, std::vector<std::string> options = {});
 
 /// The heights that the bin of a tile has to hold.
 using SourceRange = std::function<Range(const Rect&)>;
 
 /// Everything that holds for every database; failures are reported as GoogleTest failures.
 void checkDatabase(const LoadedDatabase& database, const SourceRange& source);
+void checkDatabase(const LoadedDatabase& database, const TestRaster& source);
 
 /// Bins hold the source, the drawn triangles and the bins below, and are not much larger.
 void checkBins(const LoadedDatabase& database, const SourceRange& source);

@@ -25,31 +25,23 @@ double top(const LoadedTile& tile) {
 }  // namespace
 
 TEST(Database, HoldsForAWholeGlobe) {
-    const TempFolder folder;
     const TestRaster raster = TestRaster::globe(1.0, hills);
-    raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "6", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf(raster, {"--cells", "6"});
     EXPECT_EQ(database.deepestLevel(), 2);
-    checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
+    checkDatabase(database, raster);
 }
 
 TEST(Database, HoldsWhenTheRasterIsMuchFinerThanTheTiles) {
-    const TempFolder folder;
     const TestRaster raster = TestRaster::globe(0.5, hills);
-    raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "6", "--levels", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf(raster, {"--cells", "6", "--levels", "0"});
     EXPECT_EQ(database.deepestLevel(), 0);
-    checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
+    checkDatabase(database, raster);
 }
 
 TEST(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
-    const TempFolder folder;
-    TestRaster::globe(1.0, [](double, double) { return 0.0; }).write(folder.file("flat.tif"));
-    build({folder.file("flat.tif"), "--cells", "12", "-o", folder.file("earth.osgb")});
+    const TestRaster flat = TestRaster::globe(1.0, [](double, double) { return 0.0; });
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
-    loadDatabase(folder.file("earth.osgb")).forEach([](const LoadedTile& tile) {
+    databaseOf(flat, {"--cells", "12"}).forEach([](const LoadedTile& tile) {
         // Against the parent's chords, four times the own; the own and the bound's slack on skirts on top.
         const double step = std::ldexp(22.5 * kDegree / 12.0, -tile.level);
         const double sag = 6400000.0 * step * step / 8.0;
@@ -60,10 +52,7 @@ TEST(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
 
 TEST(Database, TheSkirtReachesTheEdgesOfTheLevelsAboveAndBelow) {
     // Independent of the program's measure: every post of a child on its parent's edge, against the parent's chords.
-    const TempFolder folder;
-    TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "6", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf(TestRaster::globe(1.0, hills), {"--cells", "6"});
     const auto ellipsoid = database.ellipsoid();
     const auto altitude = [&ellipsoid](const glm::dvec3& p) { return ellipsoid.toGeodetic(p).altitude; };
     database.forEach([&](const LoadedTile& tile) {
@@ -87,10 +76,7 @@ TEST(Database, TheSkirtReachesTheEdgesOfTheLevelsAboveAndBelow) {
 }
 
 TEST(Database, NormalsAreTheSameOnBothSidesOfAnEdge) {
-    const TempFolder folder;
-    TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "12", "--levels", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf(TestRaster::globe(1.0, hills), {"--cells", "12", "--levels", "0"});
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 16; ++x) {
             const LoadedTile& west = database.tiles[static_cast<std::size_t>(y * 16 + x)];
@@ -154,15 +140,12 @@ TEST(Database, OptionsChangeWhatTheySay) {
     EXPECT_EQ(moon.root->getEllipsoidModel()->getRadiusEquator(), 1738100.0);
     EXPECT_EQ(moon.root->getEllipsoidModel()->getRadiusPolar(), 1736000.0);
     EXPECT_EQ(moon.root->getCoordinateSystem(), "");
-    checkDatabase(moon, [&raster](const Rect& rect) { return raster.range(rect); });
+    checkDatabase(moon, raster);
 }
 
 TEST(Database, TheDefaultDepthFitsTheRaster) {
-    const TempFolder folder;
     // 0.5 degrees: 45 cells in a start tile, made even.
-    TestRaster::globe(0.5, [](double, double) { return 0.0; }).write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf(TestRaster::globe(0.5, [](double, double) { return 0.0; }));
     EXPECT_EQ(database.deepestLevel(), 0);
     EXPECT_EQ(database.tiles[0].cells, 46);
 }

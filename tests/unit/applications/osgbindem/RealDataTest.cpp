@@ -4,7 +4,6 @@
 // Real elevation data, where it is installed: known places, and the same checks as for synthetic rasters.
 
 #include "DatabaseCheck.h"
-#include "Program.h"
 
 #include <gtest/gtest.h>
 
@@ -26,9 +25,7 @@ bool isThere(const std::string& path) {
 
 TEST(RealData, Etopo5) {
     if (!isThere(kEtopo5)) GTEST_SKIP() << "package ferret-datasets is not installed";
-    const TempFolder folder;
-    build({kEtopo5, "--levels", "1", "--cells", "18", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({kEtopo5, "--levels", "1", "--cells", "18"});
     const TestRaster raster(kEtopo5);
     checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
     EXPECT_NEAR(database.altitudeAt(-90.0, 0.0), 2810.0, 0.3);
@@ -40,9 +37,7 @@ TEST(RealData, Etopo5) {
 TEST(RealData, EverestWithVoids) {
     const std::string path = sample("everest_srtm3_N27E086.tif");
     if (!isThere(path)) GTEST_SKIP() << path << " is not there";
-    const TempFolder folder;
-    build({path, "--levels", "8", "-te", "86", "27", "87", "28", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({path, "--levels", "8", "-te", "86", "27", "87", "28"});
     checkSharedPosts(database);
     const TestRaster raster(path);
     database.forEach([&](const LoadedTile& tile) {
@@ -58,9 +53,7 @@ TEST(RealData, EverestWithVoids) {
 TEST(RealData, AleutiansPastTheDateLine) {
     const std::string path = sample("aleutians_etopo1_5min_antimeridian.tif");
     if (!isThere(path)) GTEST_SKIP() << path << " is not there";
-    const TempFolder folder;
-    build({path, "--levels", "2", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({path, "--levels", "2"});
     const TestRaster raster(path);
     checkSharedPosts(database);
     checkNodes(database);

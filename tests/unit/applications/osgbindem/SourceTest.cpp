@@ -43,44 +43,31 @@ osgbindem::DemMosaic mosaicOf(const std::vector<std::string>& words) {
     return osgbindem::DemMosaic(osgbindem::withDeclaredRadii(settings.value()));
 }
 
-SourceRange rangeOf(const TestRaster& raster) {
-    return [&raster](const Rect& rect) { return raster.range(rect); };
-}
-
 }  // namespace
 
 TEST(Source, AGlobeFromZeroTo360HasNoSeam) {
-    const TempFolder folder;
     // As ETOPO5: posts on the poles, from longitude 0 on, and a pixel size that is slightly off.
     const TestRaster raster(0.0, 90.0, 1.0, 1.0, 360, 181, hills);
     const TestRaster printed(0.0, 90.0, 1.0000093, 1.0, 360, 181,
                              [](double p, double l) { return hills(p, std::round(l)); });
-    printed.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "24", "--levels", "1", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkDatabase(database, rangeOf(raster));
+    const LoadedDatabase database = databaseOf(printed, {"--cells", "24", "--levels", "1"});
+    checkDatabase(database, raster);
     for (const double longitudeDeg : {-22.5, 0.0, 22.5, 179.0625, -180.0}) {
         EXPECT_NEAR(database.altitudeAt(22.5, longitudeDeg), raster.height(22.5, longitudeDeg), 0.3) << longitudeDeg;
     }
 }
 
 TEST(Source, AGlobeThatRepeatsItsFirstColumnKeepsItsPlace) {
-    const TempFolder folder;
     const TestRaster raster(-180.0, 90.0, 1.0, 1.0, 361, 181, hills);
-    raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "10", "--levels", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkDatabase(database, rangeOf(raster));
+    const LoadedDatabase database = databaseOf(raster, {"--cells", "10", "--levels", "0"});
+    checkDatabase(database, raster);
     EXPECT_NEAR(database.altitudeAt(0.0, 135.0), hills(0.0, 135.0), 0.3);
 }
 
 TEST(Source, CellRegisteredGlobesReachThePoles) {
-    const TempFolder folder;
     const TestRaster raster(-179.5, 89.5, 1.0, 1.0, 360, 180, north);
-    raster.write(folder.file("globe.tif"));
-    build({folder.file("globe.tif"), "--cells", "10", "--levels", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
-    checkDatabase(database, rangeOf(raster));
+    const LoadedDatabase database = databaseOf(raster, {"--cells", "10", "--levels", "0"});
+    checkDatabase(database, raster);
     EXPECT_NEAR(database.altitudeAt(90.0, 11.25), 895.0, 0.3);
     EXPECT_NEAR(database.altitudeAt(-90.0, 11.25), -895.0, 0.3);
 }
@@ -91,8 +78,7 @@ TEST(Source, TheFinestRasterCountsAndOnlyItsAreaGoesDeep) {
     const TestRaster inset(10.0, 52.0, 0.02, 0.02, 101, 101, [](double, double) { return 700.0; });
     globe.write(folder.file("globe.tif"));
     inset.write(folder.file("inset.tif"));
-    build({folder.file("globe.tif"), folder.file("inset.tif"), "--blend", "0", "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({folder.file("globe.tif"), folder.file("inset.tif"), "--blend", "0"});
     EXPECT_NEAR(database.altitudeAt(51.0, 11.0), 700.0, 0.01);
     EXPECT_NEAR(database.altitudeAt(47.0, 11.0), 100.0, 0.3);
     // One level for the globe, as 24 cells are the fewest; the inset's spacing needs six.
@@ -114,8 +100,7 @@ TEST(Source, EdgesOfAnInsetAreClosedBySkirts) {
     const TempFolder folder;
     TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
     TestRaster(0.1, 44.9, 0.02, 0.02, 100, 100, hills).write(folder.file("inset.tif"));
-    build({folder.file("globe.tif"), folder.file("inset.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({folder.file("globe.tif"), folder.file("inset.tif")});
     const auto ellipsoid = database.ellipsoid();
     const LoadedTile& coarse = database.leafAt(44.0, -11.0);
     ASSERT_EQ(coarse.level, 0);
@@ -149,8 +134,7 @@ TEST(Source, MissingHeightsFallThroughToTheNextRasterAndToZero) {
     fine.setNodata(-9999.0);
     fine.write(folder.file("fine.tif"));
     coarse.write(folder.file("coarse.tif"));  // NaN as it is
-    build({folder.file("coarse.tif"), folder.file("fine.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database = databaseOf({folder.file("coarse.tif"), folder.file("fine.tif")});
     EXPECT_NEAR(database.altitudeAt(5.0, 5.0), 900.0, 0.3);
     // The void eases from its rim at 10 degrees to the coarser raster at the border at 20.
     EXPECT_NEAR(database.altitudeAt(5.0, 15.0), 650.0, 100.0);
@@ -354,8 +338,7 @@ TEST(Source, OtherBodiesHaveTheRadiiThatTheirRastersDeclare) {
     map.setReference("+proj=eqc +R=1737400 +no_defs");
     map.write(folder.file("map.tif"));
     for (const char* name : {"moon.tif", "map.tif"}) {
-        build({folder.file(name), "--levels", "0", "--overwrite", "-o", folder.file("moon.osgb")});
-        const LoadedDatabase database = loadDatabase(folder.file("moon.osgb"));
+        const LoadedDatabase database = databaseOf({folder.file(name), "--levels", "0"});
         EXPECT_EQ(database.ellipsoid().equatorialRadius(), 1737400.0);
         EXPECT_EQ(database.ellipsoid().polarRadius(), 1737400.0);
         EXPECT_NEAR(database.altitudeAt(22.5, 22.5), 1000.0, 0.3) << name;
@@ -381,10 +364,8 @@ TEST(Source, TheBandThatIsNamedCounts) {
 }
 
 TEST(Source, RastersOfCentimetresAreDeepAndSmall) {
-    const TempFolder folder;
-    TestRaster(1.0, 2.0, 4.5e-7, 4.5e-7, 20, 20, [](double, double) { return 500.0; }).write(folder.file("fine.tif"));
-    build({folder.file("fine.tif"), "-o", folder.file("earth.osgb")});
-    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const LoadedDatabase database =
+        databaseOf(TestRaster(1.0, 2.0, 4.5e-7, 4.5e-7, 20, 20, [](double, double) { return 500.0; }));
     EXPECT_EQ(database.deepestLevel(), 20);
     EXPECT_NEAR(database.altitudeAt(2.0 - 4e-6, 1.0 + 4e-6), 500.0, 0.1);
     checkSharedPosts(database);
