@@ -12,18 +12,14 @@
 
 #include <osgAnalyticBin/InstallBins.h>
 
-#include <osg/Geode>
 #include <osg/Material>
 #include <osg/MatrixTransform>
-#include <osg/ShapeDrawable>
 #include <osg/Timer>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 #include <osgViewer/Viewer>
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <stdexcept>
@@ -36,11 +32,13 @@ namespace {
 
 constexpr double kReach = 30e3;  // metres
 constexpr int kTimed = 5;        // frames
+constexpr int kWidth = 960, kHeight = 540;
+constexpr unsigned int kModels = 2000;
 constexpr const char* kUsage =
-    "osganalyticbin_traffic DATABASE PATH.csv ... [--models N] [--size WIDTHxHEIGHT] [--compute-near]\n"
+    "osganalyticbin_traffic DATABASE PATH.csv ...\n"
     "Needs a display. Columns: models in view by their spheres; with a pixel; drawn; milliseconds of a frame without "
-    "and "
-    "with\nthe question for terrain, and their ratio. --compute-near: OSG computes near and far planes.\n";
+    "and\n"
+    "with the question for terrain, and their ratio.\n";
 
 // Everything in one colour, whatever its lights and textures.
 void paint(osg::Node& node, unsigned int colour) {
@@ -60,15 +58,14 @@ void paint(osg::Node& node, unsigned int colour) {
 
 class Bench {
 public:
-    Bench(const std::string& database, unsigned int models, int width, int height, bool computesNear)
-        : _traffic(models), _computesNear(computesNear) {
+    explicit Bench(const std::string& database) : _traffic(kModels) {
         _database = osgDB::readRefNodeFile(database);
         if (!_database) throw std::runtime_error(database + " cannot be read");
         _scene->addChild(_database);
         _scene->addChild(&_traffic.models());
         _viewer.setSceneData(_scene);
         _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-        _viewer.setUpViewInWindow(0, 0, width, height);
+        _viewer.setUpViewInWindow(0, 0, kWidth, kHeight);
         _viewer.getCamera()->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
         _viewer.setRealizeOperation(new flight::WithoutAnisotropy);
         flight::makeComparable(*_viewer.getCamera());
@@ -78,13 +75,9 @@ public:
     }
 
     // Returns: whether all that has a pixel is drawn.
-    bool measure(const flight::CameraPose& given) {
-        flight::CameraPose pose = given;
-        if (_computesNear) pose.nearPlane = pose.farPlane = 0.0;
+    bool measure(const flight::CameraPose& pose) {
         osg::Camera& camera = *_viewer.getCamera();
-        const flight::Globe globe = flight::globeOf(*_database);
-        if (_computesNear) camera.setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
-        flight::placeCamera(camera, pose, globe);
+        flight::placeCamera(camera, pose, flight::globeOf(*_database));
         drawUntilIdle();
         _traffic.scatter(*_database, osg::Vec3d() * camera.getInverseViewMatrix(), kReach);
         const Picture without = look(false), with = look(true);
@@ -92,22 +85,20 @@ public:
         for (const unsigned int model : without.models) lost += with.models.count(model) == 0;
         const bool isSame =
             std::memcmp(without.image->data(), with.image->data(), without.image->getTotalSizeInBytes()) == 0;
-        const std::size_t spheres = countSpheres();
-        std::printf("%-14s %6u %6zu %6zu %6u %8.1f %8.1f %6.2f", pose.name.c_str(), without.drawn,
-                    without.models.size(), spheres, with.drawn, without.milliseconds, with.milliseconds,
-                    with.milliseconds / without.milliseconds);
+        std::printf("%-14s %6u %6zu %6u %8.1f %8.1f %6.2f", pose.name.c_str(), without.drawn, without.models.size(),
+                    with.drawn, without.milliseconds, with.milliseconds, with.milliseconds / without.milliseconds);
         if (lost > 0) std::printf("  %zu models lost", lost);
         if (!isSame) std::printf("  pictures differ");
         std::printf("\n");
         std::fflush(stdout);
-        _inView += without.drawn, _withPixel += without.models.size(), _spheres += spheres, _drawn += with.drawn;
+        _inView += without.drawn, _withPixel += without.models.size(), _drawn += with.drawn;
         _timeWithout += without.milliseconds, _timeWith += with.milliseconds;
-        return lost == 0 && (isSame || _computesNear);
+        return lost == 0 && isSame;
     }
 
     void printSum() const {
-        std::printf("%-14s %6zu %6zu %6zu %6zu %8.1f %8.1f %6.2f\n", "sum", _inView, _withPixel, _spheres, _drawn,
-                    _timeWithout, _timeWith, _timeWith / _timeWithout);
+        std::printf("%-14s %6zu %6zu %6zu %8.1f %8.1f %6.2f\n", "sum", _inView, _withPixel, _drawn, _timeWithout,
+                    _timeWith, _timeWith / _timeWithout);
     }
 
 private:
@@ -157,28 +148,6 @@ private:
         return models;
     }
 
-    // How many models would have a pixel if they filled their spheres.
-    std::size_t countSpheres() {
-        const osg::ref_ptr<osg::Geode> ball = new osg::Geode;
-        osg::Group& models = _traffic.models();
-        if (models.getNumChildren() == 0) return 0;
-        const osg::BoundingSphere bound = models.getChild(0)->asGroup()->getChild(0)->getBound();
-        ball->addDrawable(new osg::ShapeDrawable(new osg::Sphere(bound.center(), bound.radius())));
-        _traffic.setAsking(false);
-        for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->addChild(ball);
-        setPainted(true);
-        // the sphere about a ball's box is larger
-        osg::Camera& camera = *_viewer.getCamera();
-        const float smallest = camera.getSmallFeatureCullingPixelSize();
-        camera.setSmallFeatureCullingPixelSize(smallest * std::sqrt(3.0f));
-        (void)drawOnce();
-        const osg::ref_ptr<osg::Image> image = drawOnce();
-        camera.setSmallFeatureCullingPixelSize(smallest);
-        setPainted(false);
-        for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->removeChild(ball);
-        return modelsIn(image.get()).size();
-    }
-
     Picture look(bool asks) {
         _traffic.setAsking(asks);
         drawUntilIdle();
@@ -200,33 +169,17 @@ private:
     osg::ref_ptr<osg::Node> _database;
     const osg::ref_ptr<osg::Group> _scene = new osg::Group;
     viewer::Traffic _traffic;
-    const bool _computesNear;
     osgViewer::Viewer _viewer;
     const osg::ref_ptr<flight::FrameCapture> _capture = new flight::FrameCapture;
-    std::size_t _inView = 0, _withPixel = 0, _spheres = 0, _drawn = 0;
+    std::size_t _inView = 0, _withPixel = 0, _drawn = 0;
     double _timeWithout = 0.0, _timeWith = 0.0;
 };
 
-int run(const std::vector<std::string>& words) {
-    std::vector<std::string> files;
-    unsigned int models = 2000;
-    int width = 960, height = 540;
-    bool computesNear = false;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] == "--compute-near")
-            computesNear = true;
-        else if (words[i] == "--models" && i + 1 < words.size())
-            models = static_cast<unsigned int>(std::strtoul(words[++i].c_str(), nullptr, 10));
-        else if (words[i] == "--size" && i + 1 < words.size())
-            std::sscanf(words[++i].c_str(), "%dx%d", &width, &height);
-        else
-            files.push_back(words[i]);
-    }
+int run(std::vector<std::string> files) {
     if (files.size() < 2) return std::fputs(kUsage, stderr), 2;
-    const std::string database = files.front();
+    Bench bench(files.front());
     files.erase(files.begin());
     const auto path = flight::readCameraPathFiles(files);
-    Bench bench(database, models, width, height, computesNear);
     bool isRight = true;
     for (const flight::CameraPose& pose : path) isRight = bench.measure(pose) && isRight;
     bench.printSum();
