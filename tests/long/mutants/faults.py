@@ -267,7 +267,7 @@ FAULTS = [
     Fault("tiles are doubted while their families change", "src/kit/tile/InstalledTile.cpp",
           "static std::mutex mutex;", "static thread_local std::mutex mutex;", NODE, "InstalledTiles.*"),
     Fault("tiles are believed wherever they stand", "src/kit/cull/AnalyticBinCullCallback.cpp",
-          "standsAsInstalled(cullStack, *database);", "true;", NODE, "Instances.*"),
+          "standsAsInstalled(cullStack, *database);", "true;", SCENES, NAMED),
     Fault("instances get bins", "src/kit/install/BinInstaller.cpp",
           "if (isInstanced(*tile.node, tile.frame, database().root())) {", "if (false) {", SCENES, NAMED),
     Fault("holes are not looked at again", "src/kit/database/DatabaseCallbacks.cpp", " || last.holes % kSeldom == 0", "", NODE,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What applications put on a globe on which bins are installed: instances, content of their own, clones.
+// What applications put on a globe on which bins are installed: content of their own, clones.
 // Oracle: what OSG draws of the same scene; random scenes of all of this: tests/long/scenes. State, masks and eyes:
 // ApplicationStateTest.cpp.
 
@@ -28,19 +28,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::PagedLOD> instance = makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 4000.0), "no.osgb");
-    globe.root->addChild(instance);
-    installBins(*globe.root);
-    const osg::ref_ptr<osg::MatrixTransform> place =
-        new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), 0, 0, 1));
-    place->addChild(instance);
-    globe.root->addChild(place);
-    EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 2.5)));
-    EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5)));
-}
 
 TEST(AddedContent, IsATileThatIsATransformAndMoves) {
     MeshGlobe globe;
