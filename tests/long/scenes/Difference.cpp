@@ -7,6 +7,7 @@
 #include <osg/NodeCallback>
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>
+#include <osgDB/Options>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
@@ -52,6 +53,15 @@ std::string expiryOf(const osg::Node& node) {
     return times;
 }
 
+// Those with which files are read below a node, and the callback that reads them.
+std::string readingOf(const osg::Node& node) {
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    const auto* const options = paged ? dynamic_cast<const osgDB::Options*>(paged->getDatabaseOptions()) : nullptr;
+    if (!options) return {};
+    const osgDB::ReadFileCallback* const reader = options->getReadFileCallback();
+    return "options \"" + options->getOptionString() + '"' + (reader ? typeid(*reader).name() : "");
+}
+
 /// In the order in which they are told.
 enum Kind {
     Culling,
@@ -61,12 +71,13 @@ enum Kind {
     BoundCallbacks,
     UserValues,
     Expiry,
+    Reading,
     Structure,
     Kinds
 };
 constexpr std::array<const char*, Kinds> kKindNames{"culling active",  "cull callbacks",  "update callbacks",
                                                     "event callbacks", "bound callbacks", "user values",
-                                                    "expiry times",    "structure"};
+                                                    "expiry times",    "read options",    "structure"};
 
 class Comparison {
 public:
@@ -112,6 +123,7 @@ private:
         note(BoundCallbacks, a, boundCallbackOf(a), boundCallbackOf(b));
         note(UserValues, a, userValuesOf(a), userValuesOf(b));
         note(Expiry, a, expiryOf(a), expiryOf(b));
+        note(Reading, a, readingOf(a), readingOf(b));
         note(Structure, a, a.className() + (' ' + a.getName()), b.className() + (' ' + b.getName()));
     }
 

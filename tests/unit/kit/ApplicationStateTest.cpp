@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// How applications show a globe on which bins are installed: state, masks, callbacks, eyes below the ground; and what
-// is left when bins are taken off. Content: ApplicationContentTest.cpp. States of all kinds: tests/scenes.
+// How applications show a globe on which bins are installed: state, masks, callbacks, eyes below the ground.
+// Content: ApplicationContentTest.cpp. States of all kinds, more holes: tests/scenes.
 
 #include "ApplicationGlobe.h"
 #include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osg/FrontFace>
@@ -17,7 +16,6 @@
 #include <osg/MatrixTransform>
 
 #include <cstddef>
-#include <functional>
 #include <set>
 #include <string>
 #include <support/CapturedNotes.h>
@@ -103,21 +101,6 @@ TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
     EXPECT_FALSE(globe.drawsAntipode());
 }
 
-TEST(HoledGlobe, IsSeenThroughBelowTilesThatAreHigherThanTheOccluder) {
-    MeshGlobe globe(40000.0);
-    const osg::ref_ptr<osg::PagedLOD> finer =
-        makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 40000.0), "no.osgb", 1.0f);
-    globe.tiles[19]->setRange(0, 1e9f, 1e10f);
-    globe.tiles[19]->setRange(1, 0.0f, 1e9f);
-    putBelow(*globe.tiles[19], finer);
-    CullOptions options;
-    options.heights = {30000.0, 50000.0};
-    installBins(*globe.root, options);
-    EXPECT_FALSE(globe.drawsAntipode());
-    finer->setNodeMask(0);
-    EXPECT_TRUE(globe.drawsAntipode());
-}
-
 TEST(HoledGlobe, IsNotOneWithCallbacksThatPromiseToTraverse) {
     MeshGlobe globe;
     std::set<std::string> visited;
@@ -174,26 +157,6 @@ TEST(HoledGlobe, IsSeenThroughWhereTilesAreCulledByTheNearPlane) {
     }
 }
 
-TEST(HoledGlobe, IsSeenThroughWhereAMeshStandsOutsideOfItsStoredBin) {
-    const CapturedNotes warnings;
-    for (const CullOptions& options : {CullOptions(), declaredHorizon()}) {
-        MeshGlobe globe;
-        for (const auto& tile : globe.tiles) {
-            const osg::EllipsoidModel& ellipsoid = *globe.root->getEllipsoidModel();
-            setStoredBin(*tile, tileSurface(*tile->getChild(0), ellipsoid, osg::Matrixd()).bin);
-        }
-        installBins(*globe.root, options);
-        EXPECT_FALSE(globe.drawsAntipode());
-        removeBins(*globe.root);
-        const osg::ref_ptr<osg::MatrixTransform> away =
-            new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
-        away->addChild(globe.tiles[19]->getChild(0));
-        globe.tiles[19]->setChild(0, away);
-        installBins(*globe.root, options);
-        EXPECT_TRUE(globe.drawsAntipode());
-    }
-}
-
 // The eye is in the mesh of tile 19; all tiles have finer levels, which are due where `isDue` says so.
 struct AwaitedGround : MeshGlobe {
     struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
@@ -231,56 +194,6 @@ TEST(AwaitedGround, IsLoadedBeforeWhatTheHorizonWillHide) {
     EXPECT_FALSE(globe.drawsAntipode(41000.0));
     EXPECT_FALSE(globe.asksForAntipode()) << "it may come now";
     EXPECT_TRUE(AwaitedGround(false).asksForAntipode()) << "nothing finer is due";
-}
-
-TEST(Undo, RestoresAllThatWasChanged) {
-    MeshGlobe globe;
-    osg::PagedLOD& tile = *globe.tiles[19];
-    osg::Node& mesh = *tile.getChild(0);
-    mesh.setCullingActive(false);
-    globe.tiles[18]->setCullingActive(false);
-    const osg::ref_ptr<osgDB::Options> own = new osgDB::Options("own");
-    tile.setDatabaseOptions(own);
-    const osg::ref_ptr<osg::NodeCallback> user = new osg::NodeCallback;
-    tile.setCullCallback(user);
-    tile.setMinimumExpiryTime(1, 2.0);
-    struct Bound : osg::Node::ComputeBoundingSphereCallback {
-        osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
-    };
-    const osg::ref_ptr<Bound> bound = new Bound;
-    tile.setComputeBoundingSphereCallback(bound);
-
-    for (int round = 0; round < 3; ++round) {
-        installBins(*globe.root);
-        installBins(*globe.root);
-        EXPECT_TRUE(tile.getCullingActive());
-        const osg::ref_ptr<osg::Node> tower = makeTower(ecefDeg(20, -20, 1000.0));
-        tower->setCullingActive(false);
-        if (round == 2) mesh.asGroup()->addChild(tower);
-        removeBins(*globe.root);
-        EXPECT_FALSE(mesh.getCullingActive());
-        EXPECT_FALSE(tower->getCullingActive());
-        EXPECT_FALSE(globe.tiles[18]->getCullingActive());
-        EXPECT_TRUE(globe.tiles[18]->getChild(0)->getCullingActive());
-        EXPECT_TRUE(tile.getCullingActive());
-        EXPECT_EQ(tile.getDatabaseOptions(), own);
-        EXPECT_EQ(globe.tiles[18]->getDatabaseOptions(), nullptr);
-        EXPECT_EQ(tile.getCullCallback(), user);
-        EXPECT_EQ(user->getNestedCallback(), nullptr);
-        EXPECT_EQ(tile.getMinimumExpiryTime(1), 2.0);
-        EXPECT_EQ(tile.getComputeBoundingSphereCallback(), bound);
-        EXPECT_EQ(tile.getUserDataContainer(), nullptr);
-        EXPECT_EQ(globe.root->getCullCallback(), nullptr);
-        EXPECT_EQ(globe.root->getUpdateCallback(), nullptr);
-    }
-}
-
-TEST(Undo, TakesGroupsAboveTilesAway) {
-    FiledGlobe globe;
-    ASSERT_NE(globe.group->getChild(0)->asTransform(), globe.group->getChild(0)) << "a group is above the leaf";
-    removeBins(*globe.root);
-    EXPECT_NE(globe.group->getChild(0)->asTransform(), nullptr);
-    EXPECT_EQ(globe.group->getNumChildren(), 1u);
 }
 
 TEST(StoredBins, OfDrawablesAreRefused) {
@@ -372,42 +285,6 @@ TEST(DecidedPlanes, AreLeftOutBelowTheTransformsOfATileAlone) {
         EXPECT_EQ(readers[0]->planes, 0u) << "the tile is inside all planes";
         EXPECT_EQ(readers[1]->planes, 4u) << "what stands beside it is not";
     }
-}
-
-// Tile 18 in place of tile 19 too: tiles that stand in several places of their globe have no bins.
-osg::ref_ptr<osg::PagedLOD> instanceTile18(MeshGlobe& globe) {
-    const osg::ref_ptr<osg::MatrixTransform> turned =
-        new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
-    turned->addChild(globe.tiles[18]);
-    globe.root->replaceChild(globe.tiles[19], turned);
-    return globe.tiles[18];
-}
-
-TEST(TilesWithoutBins, LeaveADatabaseWithoutAHorizon) {
-    const auto instance = [](MeshGlobe& globe) { instanceTile18(globe); };
-    const auto move = [](MeshGlobe& globe) {
-        const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
-        moving->setDataVariance(osg::Object::DYNAMIC);
-        moving->addChild(globe.tiles[19]);
-        globe.root->replaceChild(globe.tiles[19], moving);
-    };
-    for (const std::function<void(MeshGlobe&)>& change : {std::function<void(MeshGlobe&)>(instance), {move}}) {
-        MeshGlobe globe;
-        installBins(*globe.root, declaredHorizon());
-        EXPECT_FALSE(globe.drawsAntipode());
-        change(globe);
-        installBins(*globe.root, declaredHorizon());
-        EXPECT_TRUE(globe.drawsAntipode());
-    }
-}
-
-TEST(TilesWithoutBins, AreNotWhatVehiclesAre) {
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> moving = makeTower(ecefDeg(0.0, 90.0, 1000.0));
-    moving->setDataVariance(osg::Object::DYNAMIC);
-    globe.root->addChild(moving);
-    installBins(*globe.root, declaredHorizon());
-    EXPECT_FALSE(globe.drawsAntipode());
 }
 
 }  // namespace
