@@ -536,7 +536,7 @@ FAULTS = [
           "view.projection == cullStack.getProjectionMatrix() &&", "", NODE, "NestedCamera*"),
     Fault("family: whatever has the number of a tile is the tile", "src/kit/cull/TileFamily.cpp",
           "std::uint64_t{_nodes[i] == group.getChild(static_cast<unsigned int>(i))}", "std::uint64_t{_nodes[i].valid()}",
-          NODE, "TileFamily.*"),
+          SCENES, NAMED),
     Fault("family: tiles that are taken away leave no hole", "src/kit/cull/TileFamily.cpp",
           "verdicts.lacksTiles = (part.members & ~verdicts.members) != 0;", "", SCENES, NAMED),
     Fault("family: decided planes are tested again", "src/kit/cull/SelectionDrawing.cpp",

@@ -195,19 +195,6 @@ TEST(TileFamily, LetsVisitorsOfAnApplicationMeetTheTilesThatAreKept) {
     EXPECT_EQ(met(*globe.tiles[15]), 0);
 }
 
-TEST(TileFamily, LeavesToOsgWhatTakesTheNumberOfATile) {
-    MeshGlobe globe;
-    installBins(*globe.root);
-    const osg::Vec3d place = ecefDeg(22.5, 157.5, 1000.0);
-    const osg::ref_ptr<osg::Node> tower = makeTower(place);
-    const unsigned int number = globe.root->getChildIndex(globe.tiles[19]);
-    globe.root->setChild(number, tower);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(globe.draws(*tower, downTo(22.5, 157.5)));
-        update(*globe.root);
-    }
-}
-
 TEST(TileFamily, FollowsMeshesThatOsgOptimizes) {
     MeshGlobe globe;
     installBins(*globe.root);
