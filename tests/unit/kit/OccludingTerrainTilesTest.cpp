@@ -70,15 +70,6 @@ struct TerrainGlobe {
     unsigned int frame = 0;
 };
 
-TEST(OccludingTerrainTiles, HideWhatIsBehindARidge) {
-    TerrainGlobe globe;
-    installBins(*globe.terrain, withOcclusion(OcclusionUse::Off));
-    EXPECT_TRUE(globe.drawsFarTile());
-    setCullOptions(*globe.terrain, withOcclusion(OcclusionUse::On));
-    EXPECT_FALSE(globe.drawsFarTile());
-    EXPECT_GE(globe.counts().occluded, 1u);
-}
-
 TEST(OccludingTerrainTiles, HideNothingOnceTheyHaveLostTheirTechnique) {
     TerrainGlobe globe;
     installBins(*globe.terrain, withOcclusion(OcclusionUse::On));

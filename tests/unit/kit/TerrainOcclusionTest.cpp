@@ -32,27 +32,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
-    RidgeGlobe globe;
-    CullOptions without;
-    without.occlusion = OcclusionUse::Off;
-    installBins(*globe.root, without);
-    EXPECT_TRUE(globe.drawsFarTile());
-    EXPECT_EQ(globe.counts().occluded, 0u);
-    setCullOptions(*globe.root, withOcclusion());
-    EXPECT_FALSE(globe.drawsFarTile());
-    EXPECT_GE(globe.counts().occluded, 1u);
-    EXPECT_GE(globe.counts().outside, globe.counts().occluded);
-    for (const int i : {0, 1, 2})
-        EXPECT_TRUE(globe.draws(*globe.row[static_cast<std::size_t>(i)], globe.alongRow())) << i;
-    // from above the ridge, and from above a lower one
-    EXPECT_TRUE(
-        globe.drawsFarTile(CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0)));
-    RidgeGlobe low(500.0);
-    installBins(*low.root, withOcclusion());
-    EXPECT_TRUE(low.drawsFarTile());
-}
-
 // Bins of the row reach up to 9000 m, for finer tiles; the mesh behind the ridge is at 0 m.
 TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
     RidgeGlobe globe(3500.0);
