@@ -19,7 +19,6 @@
 #include <cstdlib>
 #include <string>
 #include <support/TemporaryFolder.h>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -71,39 +70,6 @@ protected:
     const std::string _file = _folder / "children.osgb";
     osg::ref_ptr<osgDB::ReadFileCallback> _reader = new test::CountedReads;
 };
-
-// As in a simulator that programs its page content.
-TEST_F(ObjectCache, EachCallbackIsAskedWhateverTheNameOfItsFile) {
-    struct Content : osgDB::ReadFileCallback {
-        explicit Content(std::string given) : name(std::move(given)) {}
-        osgDB::ReaderWriter::ReadResult readNode(const std::string&, const osgDB::Options*) override {
-            const osg::ref_ptr<osg::Group> group = new osg::Group;
-            group->setName(name);
-            return group.get();
-        }
-        const std::string name;
-    };
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    std::vector<osg::ref_ptr<osg::PagedLOD>> tiles;
-    for (const char* const name : {"first", "second"}) {
-        const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
-        own->setObjectCacheHint(osgDB::Options::CACHE_ALL);
-        own->setReadFileCallback(new Content(name));
-        tiles.push_back(makeCachedTile("a name that says nothing"));
-        tiles.back()->setDatabaseOptions(own);
-        root->addChild(tiles.back());
-    }
-    installBins(*root);
-    const auto nameOfContent = [](osg::PagedLOD& tile) {
-        return osgDB::readRefNodeFile(tile.getFileName(1), static_cast<osgDB::Options*>(tile.getDatabaseOptions()))
-            ->getName();
-    };
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(nameOfContent(*tiles[0]), "first");
-        EXPECT_EQ(nameOfContent(*tiles[1]), "second");
-    }
-}
 
 // They outlive what belongs to an application.
 TEST_F(ObjectCache, NothingOfOursIsInOsgsCaches) {
