@@ -563,7 +563,7 @@ FAULTS = [
     Fault("entry: boxes of meshes are tested in the tile's frame", "src/kit/cull/FamilyTile.cpp",
           "isOutside(box, planes[i], _frame)", "isOutside(box, planes[i], nullptr)", SCENES, RANDOM),
     Fault("entry: near and far planes look along another frame", "src/kit/cull/FamilyTile.cpp",
-          "if (_frame) OpenVisitor::setCorners(_visitor, *_matrix);", "", NODE, "FamilyTile.*"),
+          "if (_frame) OpenVisitor::setCorners(_visitor, *_matrix);", "", SCENES, NAMED),
     Fault("entry: parts of a mesh are no small features", "src/kit/cull/FamilyTile.cpp",
           "if (mayBeSmall && isDroppedAsSmall(node)) return;", "(void)mayBeSmall;", NODE, "FamilyTile.*"),
     Fault("entry: cull callbacks in a mesh are not run", "src/kit/cull/FamilyTile.cpp",

@@ -139,18 +139,22 @@ public:
     }
 
     /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit enters tiles by itself. Returns:
-    /// nullopt where it gets a drawable as often as a derived visitor does, but in another way.
+    /// nullopt where it gets more than a derived visitor, a drawable as often but in another way, or the same with
+    /// other near and far planes.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
-        const auto leavesFor = [&](osgUtil::CullVisitor& visitor) {
+        const auto culledBy = [&](osgUtil::CullVisitor& visitor) {
             visitor.setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
             CullView view = viewOf(spec);
             view.states = states;
-            return leavesIn(*cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime()).stage);
+            return cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime());
         };
-        const std::vector<Leaf> plain = leavesFor(*_plain), derived = leavesFor(*_derived);
+        const CullResult here = culledBy(*_plain), there = culledBy(*_derived);
+        const std::vector<Leaf> plain = leavesIn(*here.stage), derived = leavesIn(*there.stage);
         if (withoutOthers(plain, derived) != withoutOthers(derived, plain)) return std::nullopt;
+        if (hasMore(plain, derived)) return std::nullopt;
+        if (plain == derived && here.projection != there.projection) return std::nullopt;
         const auto isAmong = [](const std::vector<Leaf>& leaves, const Delivered& delivered) {
             return std::any_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
                 return leaf.drawable == delivered.drawable && leaf.matrix == delivered.modelView;
@@ -183,11 +187,23 @@ private:
         DerivedVisitor() { setDrawsAsCullVisitor(*this); }
     };
 
-    // Those of drawables that are delivered as often to the other visitor.
-    static std::vector<Leaf> withoutOthers(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
+    // How much more often one visitor gets a drawable than the other.
+    static std::map<const osg::Drawable*, int> surplusOf(const std::vector<Leaf>& leaves,
+                                                         const std::vector<Leaf>& other) {
         std::map<const osg::Drawable*, int> surplus;
         for (const Leaf& leaf : leaves) ++surplus[leaf.drawable];
         for (const Leaf& leaf : other) --surplus[leaf.drawable];
+        return surplus;
+    }
+
+    static bool hasMore(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
+        const auto surplus = surplusOf(leaves, other);
+        return std::any_of(surplus.begin(), surplus.end(), [](const auto& each) { return each.second > 0; });
+    }
+
+    // Those of drawables that are delivered as often to the other visitor.
+    static std::vector<Leaf> withoutOthers(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
+        const auto surplus = surplusOf(leaves, other);
         std::vector<Leaf> common;
         std::copy_if(leaves.begin(), leaves.end(), std::back_inserter(common),
                      [&](const Leaf& leaf) { return surplus.at(leaf.drawable) == 0; });

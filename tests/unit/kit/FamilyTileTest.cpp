@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 #include <osg/Depth>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgUtil/CullVisitor>
@@ -37,40 +35,6 @@ std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
     EXPECT_TRUE(leaves == leavesIn(*there.stage));
     EXPECT_EQ(here.projection, there.projection);
     return leaves.size();
-}
-
-// The same mesh in a frame that is turned, as those of osgTerrain are on a globe.
-osg::ref_ptr<osg::MatrixTransform> turned(const osg::ref_ptr<osg::MatrixTransform>& mesh, const osg::Matrixd& turn) {
-    auto& geometry = dynamic_cast<osg::Geometry&>(*mesh->getChild(0)->asGroup()->getChild(0));
-    const osg::Matrixd back = osg::Matrixd::inverse(turn);
-    for (osg::Vec3& vertex : dynamic_cast<osg::Vec3Array&>(*geometry.getVertexArray())) vertex = vertex * back;
-    geometry.dirtyBound();
-    mesh->preMult(turn);
-    return mesh;
-}
-
-TEST(FamilyTile, DeliversWhatOsgDeliversOnAGlobe) {
-    Random random(20261126);
-    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-    globe->setEllipsoidModel(new osg::EllipsoidModel);
-    for (double south = -90.0; south < 90.0; south += 30.0) {
-        for (double west = -180.0; west < 180.0; west += 30.0) {
-            const core::GeodeticBin extents = extentsDeg(south, south + 30.0, west, west + 30.0);
-            const osg::Matrixd turn = osg::Matrixd::rotate(random.uniform(0.0, 3.0), osg::Vec3d(1.0, 2.0, 3.0));
-            globe->addChild(makePaged(turned(makeMeshTile(extents, 100.0), turn), "no.osgb"));
-        }
-    }
-    EXPECT_GT(installBins(*globe, {}), 0u);
-    std::size_t leaves = 0;
-    for (int i = 0; i < 100; ++i) {
-        const auto place = [&](double altitude) {
-            return ecefDeg(random.uniform(-89.0, 89.0), random.uniform(-180.0, 180.0), altitude);
-        };
-        CullView view = CullView::lookAt(place(random.logUniform(1e4, 3e7)), place(0.0), {0.1, 0.2, 1.0}, 60.0);
-        if (i % 2) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-        leaves += expectSameLeaves(*globe, view);
-    }
-    EXPECT_GT(leaves, 300u);
 }
 
 struct OneTile {
