@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
 
+#include <osg/ArgumentParser>
 #include <osg/CoordinateSystemNode>
 #include <osg/FrameStamp>
 #include <osg/Geometry>
@@ -47,43 +48,29 @@ constexpr double kFrameTime = 1.0 / 60.0;
 constexpr float kDepthSteps = 16.0F / 16777216.0F;  // depths that a depth buffer may confuse
 
 constexpr const char* kUsage =
-    "osganalyticbin_views DATABASE WEST SOUTH EAST NORTH [--views N] [--seed S] [--reach METRES] [--options TEXT]\n"
+    "osganalyticbin_views DATABASE WEST SOUTH EAST NORTH [--views N] [--seed S]\n"
     "  WEST ...          degrees; eyes are in this part of the database\n"
     "  --views N         makes N views (default 1000), five on each of many short flights\n"
     "  --seed S          the seed of the first flight (default 1), of the second S + 1, ...\n"
-    "  --options TEXT    of the bins (default occlusion=on)\n"
     "Needs a display. Exit code: 0 when no view fails, 1 when one does, 2 for wrong arguments, 77 without a display\n"
     "or where the database is not there.\n";
 
 struct Arguments {
     std::string database;
     double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
-    std::uint64_t views = 1000;
-    std::uint64_t seed = 1;
-    std::string options = "occlusion=on";
+    unsigned int views = 1000, seed = 1;
 };
 
 std::optional<Arguments> parse(int count, char** values) {
-    if (count < 6 || count % 2 != 0) return std::nullopt;
+    osg::ArgumentParser parser(&count, values);
     Arguments result;
-    result.database = values[1];
-    result.west = std::atof(values[2]);
-    result.south = std::atof(values[3]);
-    result.east = std::atof(values[4]);
-    result.north = std::atof(values[5]);
-    for (int i = 6; i + 1 < count; i += 2) {
-        const std::string name = values[i];
-        const char* const value = values[i + 1];
-        if (name == "--views") {
-            result.views = std::strtoull(value, nullptr, 0);
-        } else if (name == "--seed") {
-            result.seed = std::strtoull(value, nullptr, 0);
-        } else if (name == "--options") {
-            result.options = value;
-        } else {
-            return std::nullopt;
-        }
-    }
+    (void)parser.read("--views", result.views);
+    (void)parser.read("--seed", result.seed);
+    if (parser.errors() || parser.argc() != 6) return std::nullopt;
+    result.database = parser[1];
+    int place = 2;
+    for (double* const border : {&result.west, &result.south, &result.east, &result.north})
+        *border = std::atof(parser[place++]);
     return result;
 }
 
@@ -102,24 +89,22 @@ public:
                 const osg::ref_ptr<osg::Node> child = osgDB::readRefNodeFile(file);
                 if (!child) break;
                 node.addChild(child);
-                ++_files;
             }
         }
         traverse(node);
     }
 
-    [[nodiscard]] std::size_t files() const { return _files; }
     [[nodiscard]] std::size_t drawables() const { return _drawables; }
 
 private:
     const osg::Vec3d _middle;
     const double _reach;
-    std::size_t _files = 0, _drawables = 0;
+    std::size_t _drawables = 0;
 };
 
 struct Totals {
-    std::uint64_t views = 0, failures = 0, allowed = 0, slits = 0, slivers = 0, withHidden = 0;
-    std::uint64_t byOsg = 0, byBins = 0, occluded = 0, visible = 0;
+    std::size_t views = 0, failures = 0, allowed = 0, slits = 0, slivers = 0, withHidden = 0;
+    std::size_t byOsg = 0, byBins = 0, occluded = 0, visible = 0;
 };
 
 /// A place over the terrain, and where the camera looks and goes.
@@ -143,10 +128,12 @@ struct Eye {
 /// The database twice, with bins and without.
 class Views {
 public:
-    Views(const Arguments& arguments, const CullOptions& options, Painter& painter)
+    Views(const Arguments& arguments, Painter& painter)
         : _arguments(arguments), _painter(painter), _stamp(new osg::FrameStamp) {
         _without = load();
         _with = load();
+        CullOptions options;
+        options.occlusion = OcclusionUse::On;
         (void)installBins(*_with, options);
         for (std::size_t i = 0; i < _drawables; ++i) update();
     }
@@ -174,8 +161,6 @@ private:
         if (!root) throw std::runtime_error(_arguments.database + " cannot be read");
         Loader loader(middle, (corner - middle).length() + kHighest);
         root->accept(loader);
-        std::printf("%zu files read, %zu drawables\n", loader.files(), loader.drawables());
-        std::fflush(stdout);
         _drawables = loader.drawables();
         root->getBound();
         return root;
@@ -360,10 +345,8 @@ private:
 
 int main(int argc, char** argv) {
     const auto arguments = parse(argc, argv);
-    std::string error;
-    const auto options = arguments ? cullOptionsFromText(arguments->options, error) : std::nullopt;
-    if (!options) {
-        std::fprintf(stderr, "%s%s%s", error.c_str(), error.empty() ? "" : "\n", kUsage);
+    if (!arguments) {
+        std::fputs(kUsage, stderr);
         return 2;
     }
     if (!osgDB::fileExists(arguments->database)) {
@@ -382,24 +365,17 @@ int main(int argc, char** argv) {
     const auto start = std::chrono::steady_clock::now();
     Totals totals;
     try {
-        Views(*arguments, *options, *painter).run(totals);
+        Views(*arguments, *painter).run(totals);
     } catch (const std::runtime_error& failure) {
         std::fprintf(stderr, "%s\n", failure.what());
         return 1;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    const auto print = [](const char* text, std::uint64_t count) {
-        std::printf(text, static_cast<unsigned long long>(count));
-    };
-    std::printf("%llu views in %.0f s: ", static_cast<unsigned long long>(totals.views), seconds.count());
-    print("%llu failures; ", totals.failures);
-    print("%llu views through the ground, ", totals.allowed);
-    print("%llu pixels through slits between tiles, ", totals.slits);
-    print("%llu of triangles seen edge-on; ", totals.slivers);
-    print("drawn by OSG %llu, ", totals.byOsg);
-    print("with bins %llu, ", totals.byBins);
-    print("in a pixel %llu; ", totals.visible);
-    print("%llu behind terrain, ", totals.occluded);
-    print("in %llu views\n", totals.withHidden);
+    std::printf(
+        "%zu views in %.0f s: %zu failures; %zu views through the ground, %zu pixels through slits between tiles, "
+        "%zu of triangles seen edge-on; drawn by OSG %zu, with bins %zu, in a pixel %zu; %zu behind terrain, in "
+        "%zu views\n",
+        totals.views, seconds.count(), totals.failures, totals.allowed, totals.slits, totals.slivers, totals.byOsg,
+        totals.byBins, totals.visible, totals.occluded, totals.withHidden);
     return totals.failures == 0 ? 0 : 1;
 }
