@@ -12,7 +12,6 @@
 #include <osg/LOD>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
-#include <osgDB/WriteFile>
 #include <osgViewer/Viewer>
 
 #include <algorithm>
@@ -91,7 +90,7 @@ test::CullView viewOf(const Pose& pose) {
 }
 
 // Begins SimGear as fgviewer does.
-osg::ref_ptr<simgear::SGReaderWriterOptions> beginSimGear(bool withEffects) {
+osg::ref_ptr<simgear::SGReaderWriterOptions> beginSimGear() {
     sglog().setLogLevels(SG_ALL, SG_ALERT);
     simgear::ResourceManager::instance()->addBasePath(SGPath(kRoot));
     SGPropertyNode_ptr properties = new SGPropertyNode;
@@ -115,8 +114,8 @@ osg::ref_ptr<simgear::SGReaderWriterOptions> beginSimGear(bool withEffects) {
     options->setSceneryPathSuffixes({"Terrain", "Objects"});
     options->setMaterialLib(materials);
     options->setPropertyNode(properties);
-    options->setInstantiateEffects(withEffects);
-    options->setInstantiateMaterialEffects(withEffects);
+    options->setInstantiateEffects(true);
+    options->setInstantiateMaterialEffects(true);
     options->setPluginStringData("SimGear::FG_ROOT", kRoot);
     options->setPluginStringData("SimGear::BOUNDINGVOLUMES", "OFF");
     return options;
@@ -234,12 +233,10 @@ std::size_t differing(const osg::Image* a, const osg::Image* b) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto has = [&](const char* word) {
-        return std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, word) == 0; });
-    };
-    const std::size_t most = has("--quick") ? 60 : 1000000;
+    const bool isQuick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
+    const std::size_t most = isQuick ? 60 : 1000000;
     osgUtil::CullVisitor::prototype() = new simgear::EffectCullVisitor;
-    const auto options = beginSimGear(!has("--plain"));
+    const auto options = beginSimGear();
     std::printf("pose | drawables | with bins | us | with bins | pixels differ without bins | with bins\n");
     double stockSum = 0.0, binsSum = 0.0;
     std::size_t failures = 0;
@@ -260,10 +257,6 @@ int main(int argc, char** argv) {
         CullOptions culling;
         culling.globe.emplace(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
         culling.ground = "BTGTerrainGroup";
-        if (has("--horizon")) {
-            culling.horizonUse = HorizonUse::Given;
-            culling.horizon = -1000.0;
-        }
         for (const Tile& tile : tiles) tile.entry->removeChild(tile.content);
         (void)installBins(*terrain, culling);
         std::size_t installed = 0;
@@ -281,7 +274,6 @@ int main(int argc, char** argv) {
             std::printf("%s | %zu | %zu | %.1f | %.1f | %zu | %zu\n", poses[i].name, stock[i].drawn, bins[i].drawn,
                         without, bins[i].microseconds, noise, wrong);
             std::fflush(stdout);
-            if (has("--save")) (void)osgDB::writeImageFile(*bins[i].picture, poses[i].name + std::string(".png"));
             stockSum += without;
             binsSum += bins[i].microseconds;
             failures += wrong > noise || bins[i].drawn > stock[i].drawn;
