@@ -141,6 +141,7 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
     constexpr osg::Camera::RenderOrder kOrders[] = {osg::Camera::NESTED_RENDER, osg::Camera::PRE_RENDER,
                                                     osg::Camera::POST_RENDER};
     camera->setReferenceFrame(kFrames[part.variant % 3]);
+    if (part.variant % 2 == 1) camera->setTransformOrder(osg::Camera::POST_MULTIPLY);
     const osg::Camera::RenderOrder order = kOrders[part.variant / 3 % 3];
     camera->setRenderOrder(order);
     camera->setViewMatrix(part.view);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Cameras in the scene: drawn before, after and within the picture, in all frames of reference, with settings of their
-// own. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each camera. Shadow
-// techniques themselves: ShadowPassTest.cpp.
+// Cameras in the scene: their depth buffers, their settings, those between a database and its tiles, and the two eyes
+// of a stereo view. Oracle of these: samples of the tiles, projected by the matrices that the cull traversal holds for
+// each camera. Cameras of all frames and orders: tests/long/scenes. Shadow techniques: ShadowPassTest.cpp.
 
 #include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
@@ -13,15 +13,12 @@
 #include <gtest/gtest.h>
 #include <osg/DisplaySettings>
 #include <osg/GraphicsContext>
-#include <osg/MatrixTransform>
 #include <osg/Projection>
 #include <osg/State>
 #include <osg/Texture2D>
 #include <osgUtil/SceneView>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <support/Random.h>
@@ -42,21 +39,6 @@ using test::Look;
 using test::LookTotals;
 using test::NearPlane;
 using test::randomViewMatrix;
-
-osg::Matrixd randomProjection(test::Random& random) {
-    if (random.uniform(0, 1) < 0.3) {
-        const double size = random.logUniform(5e5, 4e6);
-        return osg::Matrixd::ortho(-size, size, -size, size, -5e7, 1e8);
-    }
-    return osg::Matrixd::perspective(random.uniform(10, 70), random.uniform(0.5, 2.0), 1.0, 1e8);
-}
-
-CullView randomCullView(test::Random& random) {
-    CullView view;
-    view.modelView = randomViewMatrix(random, 1e5);
-    view.projection = randomProjection(random);
-    return view;
-}
 
 // A camera's look from outside of the globe.
 CullView fromAfar() {
@@ -132,43 +114,6 @@ TEST(DepthBuffers, OfWindowsHaveToBeFineForAHorizon) {
         } else {
             EXPECT_EQ(reachedBy(globe.root(), globe, state), hidden);
         }
-    }
-}
-
-TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
-    for (const bool horizon : {false, true}) {
-        CameraGlobe globe(horizon ? test::horizonOptions() : CullOptions());
-        const std::optional<double> depth = horizon ? std::optional(kOccluderDepth) : std::nullopt;
-        test::Random random(80);
-        LookTotals totals;
-        for (int i = 0; i < 15; ++i) {
-            const osg::ref_ptr<osg::Group> scene = new osg::Group;
-            scene->setCullingActive(false);
-            scene->addChild(&globe.root());
-            for (const auto frame :
-                 {Transform::RELATIVE_RF, Transform::ABSOLUTE_RF, Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT}) {
-                for (const auto order : {Camera::PRE_RENDER, Camera::NESTED_RENDER, Camera::POST_RENDER}) {
-                    const bool relative = frame == Transform::RELATIVE_RF;
-                    const osg::Matrixd turn =
-                        osg::Matrixd::rotate(random.uniform(-0.5, 0.5), osgVector(random.direction()));
-                    const osg::ref_ptr<Camera> camera = test::makeCamera(
-                        "camera", globe, frame, order, relative ? turn : randomViewMatrix(random, 1e5),
-                        relative ? osg::Matrixd::scale(random.uniform(0.5, 2), random.uniform(0.5, 2), 1.0)
-                                 : randomProjection(random));
-                    if (i % 2) camera->setTransformOrder(Camera::POST_MULTIPLY);
-                    scene->addChild(camera);
-                }
-            }
-            const CullView view = randomCullView(random);
-            const std::vector<Look> looks = looksAt(*scene, view, globe);
-            ASSERT_EQ(looks.size(), 10u);
-            for (std::size_t k = 0; k < looks.size(); ++k) {
-                EXPECT_TRUE(totals.add(globe, looks[k], NearPlane::AtMinusOne, depth).empty())
-                    << "scene " << i << ", look " << k;
-            }
-        }
-        EXPECT_LT(totals.reached, totals.tiles / 3);
-        EXPECT_GT(totals.seen, 0u);
     }
 }
 
