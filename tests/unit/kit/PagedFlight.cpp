@@ -114,6 +114,11 @@ const std::multiset<std::string>& PagedFlight::drawn() const {
     return _recorder->drawn;
 }
 
+CullView lookDown(double side) {
+    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+    return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
+}
+
 std::size_t loadedTiles(osg::Node& scene) {
     std::size_t count = 0;
     visitNodes(scene, [&](osg::Node& node) {

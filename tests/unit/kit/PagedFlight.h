@@ -56,6 +56,9 @@ private:
     osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
 };
 
+/// From 300 km above the equator, down at 45 degrees to the east (1) or west (-1).
+[[nodiscard]] CullView lookDown(double side);
+
 /// Number of PagedLODs below the node that have a paged child at present.
 [[nodiscard]] std::size_t loadedTiles(osg::Node& scene);
 

@@ -182,7 +182,7 @@ TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
     EXPECT_FALSE(readChildren());
 }
 
-using test::CullView;
+using test::lookDown;
 using test::PagedFlight;
 
 osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> files) {
@@ -236,12 +236,6 @@ protected:
     }
     void TearDown() override { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
 
-    // 300 km above the equator, looking down at 45 degrees to the east or west.
-    static CullView look(double side) {
-        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-        return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
-    }
-
     test::TemporaryFolder _folder;
     osg::ref_ptr<osg::Node> _scene;
     osg::ref_ptr<test::CountedReads> _reads = new test::CountedReads;
@@ -257,12 +251,12 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "globe.osgb");
         installBins(*scene, options);
         PagedFlight flight(*scene, kSmallTarget);
-        ASSERT_TRUE(flight.load(look(+1)));
+        ASSERT_TRUE(flight.load(lookDown(+1)));
         const std::size_t files = _reads->counts().size();
         ASSERT_GT(files, 2u);
-        flight.frames(look(-1), kFramesOfNearlyTwoSeconds);
+        flight.frames(lookDown(-1), kFramesOfNearlyTwoSeconds);
         EXPECT_GT(_reads->counts().size(), files);
-        ASSERT_TRUE(flight.load(look(+1)));
+        ASSERT_TRUE(flight.load(lookDown(+1)));
         EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
     }
 }

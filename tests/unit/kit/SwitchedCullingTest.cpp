@@ -22,18 +22,13 @@ namespace osgAnalyticBin {
 namespace {
 
 using test::CullView;
+using test::lookDown;
 using test::PagedFlight;
 
 CullOptions by(Method method) {
     CullOptions options;
     options.method = method;
     return options;
-}
-
-// 300 km above the equator, looking down at 45 degrees to the east or west.
-CullView look(double side) {
-    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-    return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
 }
 
 std::set<const osg::Node*> inactiveNodes(osg::Node& scene) {
@@ -79,14 +74,15 @@ protected:
 TEST_F(SwitchedCulling, DrawsWhatTheMethodDrawsAfreshAlsoWhatIsPagedInLater) {
     const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
     PagedFlight flight(*scene);
-    ASSERT_TRUE(flight.load(look(+1)));
+    ASSERT_TRUE(flight.load(lookDown(+1)));
     double side = -1.0;
     for (const Method method : {Method::Sphere, Method::None, Method::Exact, Method::Sphere, Method::Quadratic}) {
         setCullOptions(*scene, by(method));
-        ASSERT_TRUE(flight.load(look(-side)));
-        EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(-side))) << methodName(method) << ", tiles loaded before";
-        ASSERT_TRUE(flight.load(look(side)));
-        EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(side))) << methodName(method) << ", tiles loaded later";
+        ASSERT_TRUE(flight.load(lookDown(-side)));
+        EXPECT_EQ(flight.drawn(), drawnAfresh(method, lookDown(-side)))
+            << methodName(method) << ", tiles loaded before";
+        ASSERT_TRUE(flight.load(lookDown(side)));
+        EXPECT_EQ(flight.drawn(), drawnAfresh(method, lookDown(side))) << methodName(method) << ", tiles loaded later";
         side = -side;
     }
 }
@@ -107,11 +103,11 @@ protected:
 };
 
 TEST_F(ComparedCulling, DrawsInEachTurnWhatItsMethodDraws) {
-    const auto bins = drawnAfresh(Method::Quadratic, look(1)), spheres = drawnAfresh(Method::Sphere, look(1));
+    const auto bins = drawnAfresh(Method::Quadratic, lookDown(1)), spheres = drawnAfresh(Method::Sphere, lookDown(1));
     const test::CapturedNotes notices(osg::NOTICE);
     PagedFlight flight(*_scene);
     for (const bool isStock : {false, true, false, true}) {
-        EXPECT_TRUE(flight.framesUntil(look(1), [&] {
+        EXPECT_TRUE(flight.framesUntil(lookDown(1), [&] {
             const bool isItsTurn = (static_cast<int>(flight.time() / kTurn) % 2 == 1) == isStock;
             return isItsTurn && flight.drawn() == (isStock ? spheres : bins);
         })) << isStock;
@@ -131,7 +127,7 @@ TEST_F(ComparedCulling, DrawsInEachTurnWhatItsMethodDraws) {
 }
 
 TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
-    CullView view = look(1);
+    CullView view = lookDown(1);
     view.camera = new osg::Camera;
     view.camera->setStats(new osg::Stats("camera"));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -157,8 +153,9 @@ TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
         const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
         PagedFlight flight(*scene);
         unsetenv("OSGANALYTICBIN_COMPARE");
-        const auto bins = drawnAfresh(Method::Quadratic, look(1));
-        EXPECT_TRUE(flight.framesUntil(look(1), [&] { return flight.time() > 1.0 && flight.drawn() == bins; })) << text;
+        const auto bins = drawnAfresh(Method::Quadratic, lookDown(1));
+        EXPECT_TRUE(flight.framesUntil(lookDown(1), [&] { return flight.time() > 1.0 && flight.drawn() == bins; }))
+            << text;
     }
     EXPECT_EQ(notices.count("a view with bins"), 0u);
     EXPECT_EQ(notices.count("not a number of seconds"), 1u);

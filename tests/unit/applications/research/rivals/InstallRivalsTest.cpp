@@ -31,6 +31,7 @@ using rivals::RivalCullCallback;
 using rivals::RivalOptions;
 using rivals::Rule;
 using test::CullView;
+using test::lookDown;
 using test::PagedFlight;
 
 RivalOptions by(Rule rule) {
@@ -124,17 +125,11 @@ protected:
         ASSERT_FALSE(_file.empty());
     }
 
-    // 300 km above the equator, looking down at 45 degrees to the east or west.
-    static CullView look(double side) {
-        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-        return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
-    }
-
     [[nodiscard]] std::multiset<std::string> drawnAs(const std::string& suffix, double side = 1.0) const {
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file + suffix);
         EXPECT_TRUE(scene) << suffix;
         PagedFlight flight(*scene);
-        EXPECT_TRUE(flight.load(look(side)));
+        EXPECT_TRUE(flight.load(lookDown(side)));
         return flight.drawn();
     }
 
@@ -148,7 +143,7 @@ TEST_F(RivalPlugin, CullsAlsoWhatIsPagedInLater) {
     PagedFlight flight(*scene);
     std::size_t before = 0;
     for (const double side : {1.0, -1.0}) {
-        ASSERT_TRUE(flight.load(look(side)));
+        ASSERT_TRUE(flight.load(lookDown(side)));
         std::size_t tiles = 0;
         std::size_t byRule = 0;
         test::visitNodes(*scene, [&](osg::Node& node) {
