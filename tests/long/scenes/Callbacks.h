@@ -96,10 +96,18 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 };
 
-/// Says what OSG says without it.
+/// Says what OSG says without it, or that the node is elsewhere, or small.
 class OwnBound : public Cloned<OwnBound, osg::Node::ComputeBoundingSphereCallback> {
 public:
-    [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
+    enum Kind { Right, Elsewhere, Small };
+    explicit OwnBound(Kind kind = Right) : _kind(kind) {}
+    [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override {
+        const osg::BoundingSphere bound = node.computeBound();
+        return {bound.center() * (_kind == Elsewhere ? 20.0f : 1.0f), _kind == Small ? 1.0f : bound.radius()};
+    }
+
+private:
+    Kind _kind;
 };
 
 /// Says what OSG says without it.

@@ -148,11 +148,12 @@ void vanish(int variant, osg::Node& node) {
         variant == 1 ? parent->removeChild(gone) : parent->replaceChild(gone, new osg::Group);
 }
 
+// Variants: see OwnBound.
 void setBoundCallback(const Part& part, osg::Node& node) {
     if (part.kind == PartKind::NoBoundCallback)
         node.setComputeBoundingSphereCallback(nullptr);
     else
-        node.setComputeBoundingSphereCallback(new OwnBound);
+        node.setComputeBoundingSphereCallback(new OwnBound(static_cast<OwnBound::Kind>(part.variant)));
     node.dirtyBound();
 }
 

@@ -85,22 +85,6 @@ TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
     }
 }
 
-// The bin of a leaf is that of its mesh. By a visitor of another class, OSG enters it.
-TEST(Spheres, OfLeavesAreNotTestedBesideTheirBins) {
-    struct Derived : osgUtil::CullVisitor {};
-    for (const bool isDerived : {false, true}) {
-        MeshGlobe globe;
-        if (isDerived) globe.visitor = new Derived;
-        const osg::ref_ptr<osg::Group> leaf = new osg::Group;
-        leaf->addChild(globe.tiles[19]->getChild(0));
-        leaf->setComputeBoundingSphereCallback(new OwnBound({ecefDeg(0.0, 67.5, 1e8), 1e5f}));
-        setStoredBin(*leaf, AnalyticBin(extentsDeg(0.0, 45.0, -45.0, 0.0).withAltitude({-20000.0, 100.0}), 10.0));
-        globe.root->replaceChild(globe.tiles[19], leaf);
-        installBins(*globe.root);
-        EXPECT_TRUE(globe.draws(*leaf, MeshGlobe::fromAbove())) << isDerived;
-    }
-}
-
 // Where it is OSG that enters them: such as have callbacks, and such as stand in for a file.
 TEST(Spheres, OfMeshesThatLeaveThemOutInViewEndTheHorizon) {
     const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f);
