@@ -186,6 +186,26 @@ TEST(AddedContent, IsNoticedWhereTheApplicationComputesTheBoundOfATile) {
     }
 }
 
+struct FarBound : osg::Node::ComputeBoundingSphereCallback {
+    osg::BoundingSphere computeBound(const osg::Node&) const override { return {osg::Vec3(1e8f, 0.0f, 0.0f), 1.0f}; }
+};
+
+// OSG leaves it out by that sphere, unless it is its own visitor, for which meshes are drawn directly.
+TEST(SpheresOfMeshes, MayBeElsewhereBecauseOfAPart) {
+    struct Visitor : osgUtil::CullVisitor {};
+    const CullView view = downTo(22.5, 0.0);  // tile 20 is not in it as a whole
+    for (const bool isElsewhere : {false, true}) {
+        MeshGlobe globe;
+        globe.visitor = new Visitor;
+        osg::Node& part = *globe.tiles[20]->getChild(0)->asGroup()->getChild(0);
+        if (isElsewhere) part.setComputeBoundingSphereCallback(new FarBound);
+        part.dirtyBound();
+        installBins(*globe.root);
+        update(*globe.root);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(globe.draws(*globe.tiles[15], view), isElsewhere) << i;
+    }
+}
+
 // All tiles below a node of this class, which is below the root.
 template <class Above>
 osg::ref_ptr<Above> putTilesBelow(MeshGlobe& globe) {

@@ -48,6 +48,15 @@ bool isDrawnByTechnique(const osg::Node& node) {
     return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
 }
 
+// Whether the application computes the bound of a mesh, or of a part of it, by a callback of its own.
+bool hasOwnBounds(const osg::Node& mesh) {
+    if (BoundWatch::hasOwnBound(mesh)) return true;
+    const osg::Group* const group = mesh.asGroup();
+    bool has = false;
+    for (unsigned int i = 0; group && !has && i < group->getNumChildren(); ++i) has = hasOwnBounds(*group->getChild(i));
+    return has;
+}
+
 }  // namespace
 
 // Of a node by its state alone. It matters for evidence, and where something may be hidden.
@@ -289,8 +298,8 @@ bool SelectionWalk::isLeftOutInView(const Tile& tile, const osg::Node& mesh) con
     if (tile.isOutOfView && !_isBelowOutOfView) return false;
     // OSG may enter the mesh also where it is to be drawn directly
     const bool isScaled = _view.shape.verticalScale != 1.0;
-    if (isLeftOut(mesh) && ((isScaled && tile.isEnteredByOsg) || BoundWatch::hasOwnBound(mesh))) return true;
-    return _isBelowOutOfView && (isScaled || !isBesideFrustum(sphereOf(mesh)) || BoundWatch::hasOwnBound(mesh));
+    if (isLeftOut(mesh) && ((isScaled && tile.isEnteredByOsg) || hasOwnBounds(mesh))) return true;
+    return _isBelowOutOfView && (isScaled || !isBesideFrustum(sphereOf(mesh)) || hasOwnBounds(mesh));
 }
 
 }  // namespace osgAnalyticBin
