@@ -111,15 +111,16 @@ TEST(ContentOfMeshes, IsDrawnByAGroupOfAnyClass) {
 }
 
 TEST(ContentOfFiles, IsDrawnByAGroupOfAnyClass) {
-    FiledGlobe globe;
+    MeshGlobe globe;
     // beside the sphere of what is below
-    const osg::Vec3d place = ecefDeg(20, 20, 5e6);
+    const osg::Vec3d place = ecefDeg(22.5, -22.5, 8e6);
     const osg::ref_ptr<Balloon> balloon = new Balloon(place);
-    balloon->addChild(globe.group);
-    pageOut(*globe.tile);
-    putBelow(*globe.tile, balloon);
+    balloon->addChild(makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), "none.osgb"));
+    globe.tiles[19]->setRange(1, 0.0f, 1e10f);
+    putBelow(*globe.tiles[19], balloon);
     installBins(*globe.root);
-    update(*globe.root);
+    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 8e6)));
+    EXPECT_FALSE(balloon->isDrawn);
     (void)globe.draws(*globe.root, beside(place));
     EXPECT_TRUE(balloon->isDrawn);
 }
