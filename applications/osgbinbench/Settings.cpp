@@ -130,50 +130,64 @@ struct Words {
     std::string expiry;
 };
 
-void declare(support::CommandLine& line, Settings& settings, Words& words) {
-    line.add("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
-    line.addAll("--path", settings.paths,
-                "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
-                "in place of degrees; may be given\nseveral times (default: around the database)");
-    line.addList("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)");
-    line.add("--options", settings.binOptions,
-             "more options for the bins, comma-separated, such as skirts=all\n"
-             "or horizon=-500 (metres; for the methods with +horizon)");
-    line.add("--csv", settings.csv, "file for the figures of every pose");
-    line.add("--json", settings.json, "file for the sums");
-    line.add("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
-    line.add("--report", settings.report,
-             "file for a page with the answer, tables, diagrams and pictures\n"
-             "(HTML; default without --path: report.html)");
-    line.add("--plot", settings.plot,
-             "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
-    line.addPair("--compare", settings.compared,
-                 "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the "
-                 "second");
-    line.add("--vertical-scale", settings.verticalScale, 0.001, 1000.0,
-             "factor for the heights of an osgTerrain database (default 1)");
-    line.add("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
-    line.add("--threading", words.threading,
-             "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
-             "CullThreadPerCameraDrawThreadPerContext");
-    line.add("--repeats", settings.repeats, 1, 10000,
-             "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold caches "
-             "(default 40)");
-    line.add(
-        "--flush", settings.flush, 0, 65536,
-        "MiB that are touched before each cull with cold caches\n(default twice the last-level cache, 64 at least; "
-        "0: no such culls)");
-    line.add("--frames", settings.frames, 1, 1000000, "only fly continuously, that many frames in all");
-    line.add("--draw", settings.draw,
-             "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
-    line.add("--jumps", settings.jumps,
-             "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
-    line.add("--frame-rate", settings.frameRate, 0.1, 10000.0,
-             "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)");
-    line.add("--expiry", words.expiry,
-             "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its own "
-             "rule; for flights\n(default as bins: 3, or expiry= of --options)");
-    line.add("--timeout", settings.timeout, 0.001, 86400.0, "seconds that one pose may take to load (default 120)");
+void declare(CLI::App& app, Settings& settings, Words& words) {
+    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
+    app.add_option("--path", settings.paths,
+                   "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
+                   "in place of degrees; may be given\nseveral times (default: around the database)")
+        ->allow_extra_args(false);
+    app.add_option("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--options", settings.binOptions,
+                   "more options for the bins, comma-separated, such as skirts=all\n"
+                   "or horizon=-500 (metres; for the methods with +horizon)");
+    app.add_option("--csv", settings.csv, "file for the figures of every pose");
+    app.add_option("--json", settings.json, "file for the sums");
+    app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
+    app.add_option("--report", settings.report,
+                   "file for a page with the answer, tables, diagrams and pictures\n"
+                   "(HTML; default without --path: report.html)");
+    app.add_option("--plot", settings.plot,
+                   "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
+    app.add_option(
+           "--compare", settings.compared,
+           "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the "
+           "second")
+        ->type_name("OLD NEW")
+        ->expected(2);
+    app.add_option("--vertical-scale", settings.verticalScale,
+                   "factor for the heights of an osgTerrain database (default 1)")
+        ->check(support::within(0.001, 1000.0));
+    app.add_option("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
+    app.add_option("--threading", words.threading,
+                   "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
+                   "CullThreadPerCameraDrawThreadPerContext");
+    app.add_option(
+           "--repeats", settings.repeats,
+           "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold caches "
+           "(default 40)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option(
+           "--flush", settings.flush,
+           "MiB that are touched before each cull with cold caches\n(default twice the last-level cache, 64 at least; "
+           "0: no such culls)")
+        ->check(CLI::Range(0, 65536));
+    app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all")
+        ->check(CLI::Range(1, 1000000));
+    app.add_flag("--draw", settings.draw,
+                 "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
+    app.add_flag("--jumps", settings.jumps,
+                 "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
+    app.add_option("--frame-rate", settings.frameRate,
+                   "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)")
+        ->check(support::within(0.1, 10000.0));
+    app.add_option(
+        "--expiry", words.expiry,
+        "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its own "
+        "rule; for flights\n(default as bins: 3, or expiry= of --options)");
+    app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load (default 120)")
+        ->check(support::within(0.001, 86400.0));
 }
 
 void check(const Settings& settings) {
@@ -224,12 +238,11 @@ int defaultFlush() {
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
-    support::CommandLine line("osgbinbench",
-                              "Measures the culling of a paged globe or map, method by method, along a camera path.",
-                              footer());
+    CLI::App app{"Measures the culling of a paged globe or map, method by method, along a camera path.", "osgbinbench"};
+    app.footer(footer());
     Words words;
-    declare(line, settings, words);
-    if (!line.parse(argc, argv)) return false;
+    declare(app, settings, words);
+    if (!support::parseCommandLine(app, argc, argv)) return false;
     takeSize(words.size, settings);
     settings.threading = threadingFromName(words.threading);
     check(settings);

@@ -55,21 +55,23 @@ struct Arguments {
     osgbinconv::WalkOptions walk;
 };
 
-void declare(osgAnalyticBin::support::CommandLine& line, Arguments& arguments) {
-    line.add("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
-    line.add("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
-    line.add("--check", arguments.isCheck, "compare DATABASE.bins with the database");
-    line.add("--keep-records", arguments.keepsRecords,
-             "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
-             "since");
-    line.addAll("FILE", arguments.files,
-                "the root file of a database; with --print also an index; then the root file of a copy, *.osgb");
-    line.add("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
-    line.add("--cluster", arguments.cluster,
-             "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
-             "(default remove)");
-    line.add("--threads", arguments.walk.threads, 1, 256, "number of threads (default: one per core)");
-    line.add("--quiet", arguments.walk.isQuiet, "show no progress");
+void declare(CLI::App& app, Arguments& arguments) {
+    app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
+    app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
+    app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
+    app.add_flag(
+        "--keep-records", arguments.keepsRecords,
+        "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
+        "since");
+    app.add_option("FILE", arguments.files,
+                   "the root file of a database; with --print also an index; then the root file of a copy, *.osgb");
+    app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
+    app.add_option("--cluster", arguments.cluster,
+                   "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
+                   "(default remove)");
+    app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)")
+        ->check(CLI::Range(1, 256));
+    app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
 }
 
 void requireSense(const Arguments& arguments) {
@@ -101,9 +103,10 @@ void prepareProcess() {
 ExitCode run(int argc, char** argv) {
     Arguments arguments;
     arguments.walk.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
-    osgAnalyticBin::support::CommandLine line("osgbinconv", kDescription, kExamples);
-    declare(line, arguments);
-    if (!line.parse(argc, argv)) return kSucceeded;
+    CLI::App app{kDescription, "osgbinconv"};
+    app.footer(kExamples);
+    declare(app, arguments);
+    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return kSucceeded;
     requireSense(arguments);
     prepareProcess();
     const std::string& file = arguments.files.front();

@@ -25,7 +25,7 @@ constexpr const char* kAdvice = "; install the package proj-data, or see --geoid
 
 // Half of the memory is GDAL's cache, the other half the windows that the threads keep.
 double postsPerThread(const Settings& settings) {
-    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
+    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1);
     return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 

@@ -3,15 +3,11 @@
 
 #include "Settings.h"
 
+#include "CommandLine.h"
 #include "Failure.h"
-#include "NumberRange.h"
-#include "ProgramRun.h"
 #include "RasterFile.h"
 #include "TileLayout.h"
 
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 #include <osg/CoordinateSystemNode>
 
 #include <algorithm>
@@ -21,7 +17,6 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace osgbindem {
@@ -124,7 +119,6 @@ std::string evenness(const std::string& word) {
 }
 
 void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<std::string>& units) {
-    settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     app.footer(kExamples);
     app.add_option(
         "DEM", dems,
@@ -214,14 +208,12 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     std::vector<std::string> dems;
     std::vector<std::string> units;
     CLI::App app{kDescription, "osgbindem"};
-    app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, settings, dems, units);
     std::vector<const char*> words(argv, argv + argc);
     // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
     std::replace_if(
         words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
     if (!osgAnalyticBin::support::parseCommandLine(app, argc, words.data())) return std::nullopt;
-    settings.areThreadsGiven = app.count("--threads") > 0;
     settings.dems = demsOf(dems, units);
     requireFiles(settings);
     return settings;

@@ -46,9 +46,8 @@ struct Settings {
     /// Cells along a tile's edge.
     std::optional<int> cells;
     double lodFactor = 4.0;
-    int threads = 1;
-    /// Else it is one per core.
-    bool areThreadsGiven = false;
+    /// Without it, one for each core.
+    std::optional<int> threads;
     /// For what is read of the rasters, in MiB: GDAL's cache and the windows of all threads.
     int memoryMib = 256;
     /// Read a raster's overview where that is as fine as the finest tiles.

@@ -88,7 +88,7 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
     std::vector<std::future<void>> threads;
     std::promise<void> leave;
     const std::shared_future<void> mayLeave = leave.get_future().share();
-    for (int i = 0; i < site.settings.threads; ++i) {
+    for (int i = 0; i < site.settings.threads.value_or(1); ++i) {
         threads.push_back(std::async(std::launch::async, [&, mayLeave] {
             guarded([&] {
                 TileBuilder builder(site.settings, site.layout, site.files);

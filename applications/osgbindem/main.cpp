@@ -49,7 +49,7 @@ ExitCode run(int argc, char** argv) {
     if (ranks->count() > 1 && settings->update) {
         throw osgAnalyticBin::support::UsageError("--update is the work of one process; run it without mpirun");
     }
-    if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(*ranks);
+    if (!settings->threads) settings->threads = osgbindem::threadsPerRank(*ranks);
     prepareProcess(*settings);
     if (settings->update) {
         osgbindem::updateDatabase(*settings);

@@ -6,10 +6,6 @@
 #include <functional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace osgAnalyticBin::support {
 
 /// The exit codes of all programs.
@@ -19,10 +15,6 @@ enum ExitCode : int {
     kWrongUsage = 2,     ///< the command line is wrong
     kInterrupted = 130,  ///< the user stopped the program
 };
-
-/// Parses the command line; prints the help or the version when it asks for them.
-/// Returns: whether there is something to do. Throws UsageError.
-[[nodiscard]] bool parseCommandLine(CLI::App& app, int argc, const char* const* argv);
 
 /// Runs a program and prints what it throws as one line on stderr, the program's name before it.
 /// Returns: the exit code, which `run` returns or what it throws stands for.

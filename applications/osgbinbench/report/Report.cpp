@@ -179,14 +179,14 @@ std::vector<Mismatch> mismatchesOf(const std::vector<Flight>& flights) {
 }
 
 support::ExitCode run(int argc, char** argv) {
-    support::CommandLine line("osgbinbench report",
-                              "Compares flights over a database that were made with different culling methods.",
-                              kFooter);
+    CLI::App app{"Compares flights over a database that were made with different culling methods.",
+                 "osgbinbench report"};
+    app.footer(kFooter);
     std::vector<std::string> folders;
     std::string differenceFolder;
-    line.addAll("DIR", folders, "Folders that flights left (poses.csv and pictures); the first is the reference");
-    line.add("--difference", differenceFolder, "Folder for pictures of the differences: differing pixels red");
-    if (!line.parse(argc, argv)) return support::kSucceeded;
+    app.add_option("DIR", folders, "Folders that flights left (poses.csv and pictures); the first is the reference");
+    app.add_option("--difference", differenceFolder, "Folder for pictures of the differences: differing pixels red");
+    if (!support::parseCommandLine(app, argc, argv)) return support::kSucceeded;
     if (folders.empty()) throw support::UsageError("DIR is required; see osgbinbench report --help");
     const std::vector<Flight> flights = readFlights(folders, differenceFolder);
     print(std::cout, flights);

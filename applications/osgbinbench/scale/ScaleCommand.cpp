@@ -39,20 +39,32 @@ constexpr const char* kFooter =
     "Example:\n"
     "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
-void declare(support::CommandLine& line, Settings& settings) {
-    line.addList("--series", settings.series, "comma-separated: depth, residents, memory (default: all)");
-    line.addList("--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)");
-    line.addList("--levels", settings.levels, 0, 24, "numbers of levels, 0 to 24 (default 4,8,12,16,20)");
-    line.addList("--residents", settings.residents, 1, 1000000,
-                 "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)");
-    line.add("--memory-tiles", settings.memoryTiles, 1, 1000000, "tiles whose memory is counted (default 10000)");
-    line.add("--poses", settings.poses, 2, 1000, "stops of the flight (default 12)");
-    line.add("--cells", settings.cells, 2, 64, "cells along a tile's edge, even (default 8)");
-    line.add("--rounds", settings.rounds, 1, 10000, "rounds of three timed traversals each (default 15)");
-    line.add("--csv", settings.csv, "file for the figures, a line for each method and measurement");
-    line.add("--json", settings.json, "file for the figures");
-    line.add("--plot", settings.plot,
-             "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
+void declare(CLI::App& app, Settings& settings) {
+    app.add_option("--series", settings.series, "comma-separated: depth, residents, memory (default: all)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(0, 24));
+    app.add_option("--residents", settings.residents,
+                   "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--memory-tiles", settings.memoryTiles, "tiles whose memory is counted (default 10000)")
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--poses", settings.poses, "stops of the flight (default 12)")->check(CLI::Range(2, 1000));
+    app.add_option("--cells", settings.cells, "cells along a tile's edge, even (default 8)")->check(CLI::Range(2, 64));
+    app.add_option("--rounds", settings.rounds, "rounds of three timed traversals each (default 15)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--csv", settings.csv, "file for the figures, a line for each method and measurement");
+    app.add_option("--json", settings.json, "file for the figures");
+    app.add_option("--plot", settings.plot,
+                   "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
 }
 
 void check(const Settings& settings) {
@@ -109,12 +121,12 @@ void measure(const Settings& settings) {
 }  // namespace
 
 support::ExitCode run(int argc, char** argv) {
-    support::CommandLine line("osgbinbench scale",
-                              "Measures how culling scales with the depth of a database and with what is in memory.",
-                              kFooter);
+    CLI::App app{"Measures how culling scales with the depth of a database and with what is in memory.",
+                 "osgbinbench scale"};
+    app.footer(kFooter);
     Settings settings;
-    declare(line, settings);
-    if (!line.parse(argc, argv)) return support::kSucceeded;
+    declare(app, settings);
+    if (!support::parseCommandLine(app, argc, argv)) return support::kSucceeded;
     check(settings);
     // globes are read again and again, and the plugin says each time that they have bins
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);

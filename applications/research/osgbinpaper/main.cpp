@@ -43,15 +43,17 @@ std::string footer() {
            "Example:\n  osgbinpaper --cameras 200 --csv paper.csv --plot figures\n";
 }
 
-void declare(osgAnalyticBin::support::CommandLine& line, Settings& settings) {
-    line.add("DEM", settings.dem,
-             "elevation raster that GDAL reads, metres; 0 m where it has no data; cameras stand above it\n(default: " +
-                 settings.dem + ")");
-    line.add("--levels", settings.levels, 0, Terrain::kDeepest,
-             "levels of tiles below the 16 x 8 start tiles, 0 to 8 (default: 6)");
-    line.add("--cameras", settings.cameras, 1, 100000, "cameras of each of the six kinds of view (default: 400)");
-    line.add("--csv", settings.csv, "write the counts to this file, a line for each view and method");
-    line.add("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
+void declare(CLI::App& app, Settings& settings) {
+    app.add_option(
+        "DEM", settings.dem,
+        "elevation raster that GDAL reads, metres; 0 m where it has no data; cameras stand above it\n(default: " +
+            settings.dem + ")");
+    app.add_option("--levels", settings.levels, "levels of tiles below the 16 x 8 start tiles, 0 to 8 (default: 6)")
+        ->check(CLI::Range(0, Terrain::kDeepest));
+    app.add_option("--cameras", settings.cameras, "cameras of each of the six kinds of view (default: 400)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--csv", settings.csv, "write the counts to this file, a line for each view and method");
+    app.add_option("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
 }
 
 void measure(const Settings& settings) {
@@ -70,13 +72,13 @@ void measure(const Settings& settings) {
 
 ExitCode run(int argc, char** argv) {
     Settings settings;
-    osgAnalyticBin::support::CommandLine line(
-        "osgbinpaper",
+    CLI::App app{
         "Repeats the published experiment on culling by analytic bins (Ju & Jong): real terrain, a quadtree from 128\n"
         "start tiles, random cameras, the same recursion for every method, and every verdict set against a proof.",
-        footer());
-    declare(line, settings);
-    if (line.parse(argc, argv)) measure(settings);
+        "osgbinpaper"};
+    app.footer(footer());
+    declare(app, settings);
+    if (osgAnalyticBin::support::parseCommandLine(app, argc, argv)) measure(settings);
     return kSucceeded;
 }
 

@@ -66,7 +66,8 @@ void requireRanges(const osgbindem::Settings& settings) {
     require(!settings.dems.empty() && !settings.output.empty());
     for (const osgbindem::DemInput& dem : settings.dems)
         require(!dem.metresPerUnit || (std::isfinite(*dem.metresPerUnit) && *dem.metresPerUnit != 0.0));
-    require(settings.threads >= 1 && settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0);
+    require(!settings.threads || *settings.threads >= 1);
+    require(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0);
     require(!settings.cells || (*settings.cells >= 4 && *settings.cells <= 240));
     require(!settings.levels || (*settings.levels >= 0 && *settings.levels <= 20));
     const double a = settings.ellipsoid.equatorialRadius();
