@@ -62,21 +62,17 @@ struct Vertex {
     glm::dvec3 up{0.0};
 };
 
-void expand(core::Interval& range, double value) {
-    range = {std::min(range.lower, value), std::max(range.upper, value)};
-}
-
 // The middle of the vertices' latitudes and longitudes, on the ellipsoid. Requires: a vertex.
 core::Geodetic middleOf(const std::vector<Vertex>& vertices) {
     constexpr double kAtPole = 1e-7;  // radians; nearer to a pole a longitude says nothing
     glm::dvec3 sum(0.0);
     for (const Vertex& v : vertices) sum += v.ecef;
     const double about = std::atan2(sum.y, sum.x);
-    core::Interval latitude{HUGE_VAL, -HUGE_VAL}, longitude = latitude;
+    core::Interval latitude = core::Interval::none(), longitude = latitude;
     for (const Vertex& v : vertices) {
-        expand(latitude, v.position.latitude);
+        latitude.expandBy(v.position.latitude);
         if (std::abs(v.position.latitude) < 0.5 * kPi - kAtPole)
-            expand(longitude, std::remainder(v.position.longitude - about, 2.0 * kPi));
+            longitude.expandBy(std::remainder(v.position.longitude - about, 2.0 * kPi));
     }
     return {latitude.middle(), about + longitude.middle(), 0.0};
 }

@@ -3,6 +3,7 @@
 
 #include "DefaultPath.h"
 
+#include "ClusterCallbacks.h"
 #include "GlmBridge.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -27,31 +28,15 @@ using flight::CameraPose;
 
 constexpr double kVerticalFov = 60.0;  // degrees
 
-/// The bins of all tiles that are loaded.
-class BinCollector : public osg::NodeVisitor {
-public:
-    BinCollector() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
+std::vector<GeodeticBin> loadedBins(osg::Node& scene) {
+    std::vector<GeodeticBin> bins;
+    forAllNodes(scene, [&](osg::Node& node) {
         for (osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
             const auto* const tile = dynamic_cast<const AnalyticBinCullCallback*>(at);
             if (tile && tile->shownBin().valid()) bins.push_back(tile->shownBin().bin());
         }
-        traverse(node);
-    }
-
-    std::vector<GeodeticBin> bins;
-};
-
-std::vector<GeodeticBin> loadedBins(osg::Node& scene) {
-    BinCollector collector;
-    scene.accept(collector);
-    return std::move(collector.bins);
-}
-
-double lengthOf(const core::Interval& interval) {
-    return interval.upper - interval.lower;
+    });
+    return bins;
 }
 
 bool isLower(const GeodeticBin& a, const GeodeticBin& b) {
@@ -82,7 +67,7 @@ public:
     [[nodiscard]] double radius() const { return ellipsoid().equatorialRadius(); }
 
     /// From its south to its north, in metres or units of the map.
-    [[nodiscard]] double depthOf(const GeodeticBin& bin) const { return lengthOf(bin.latitude()) * radius(); }
+    [[nodiscard]] double depthOf(const GeodeticBin& bin) const { return bin.latitude().width() * radius(); }
 
     /// So many metres, or units of the map, away.
     [[nodiscard]] Geodetic moved(const Geodetic& from, double heading, double distance) const {
@@ -120,7 +105,7 @@ private:
             lookDown(top, std::min(1.2 * depthOf(_highest), 3.0 * radius()));
             std::vector<GeodeticBin> bins = loadedBins(_scene.root());
             const auto isCoarser = [&](const GeodeticBin& bin) {
-                return lengthOf(bin.latitude()) > kFiner * lengthOf(_highest.latitude()) ||
+                return bin.latitude().width() > kFiner * _highest.latitude().width() ||
                        !_highest.contains(Geodetic{bin.center().latitude, bin.center().longitude, top.altitude});
             };
             bins.erase(std::remove_if(bins.begin(), bins.end(), isCoarser), bins.end());
@@ -135,7 +120,7 @@ private:
     }
 
     [[nodiscard]] std::optional<double> groundAt(const Geodetic& at) {
-        const double depth = lengthOf(_whole.altitude()) + depthOf(_highest);
+        const double depth = _whole.altitude().width() + depthOf(_highest);
         Geodetic high = at, low = at;
         high.altitude += depth;
         low.altitude -= depth;
@@ -177,14 +162,14 @@ struct PathMaker {
     // How far the database reaches: a globe no farther than its radius.
     [[nodiscard]] double reach() const {
         const GeodeticBin& whole = places.whole();
-        const double parallel = lengthOf(whole.longitude()) * std::cos(whole.center().latitude);
-        return places.radius() * std::min(1.0, std::max(lengthOf(whole.latitude()), parallel) / 2.0);
+        const double parallel = whole.longitude().width() * std::cos(whole.center().latitude);
+        return places.radius() * std::min(1.0, std::max(whole.latitude().width(), parallel) / 2.0);
     }
 
     void addOverviews() {
         Geodetic look = places.whole().center();
         look.altitude = places.whole().altitude().upper;
-        const double quarter = lengthOf(places.whole().longitude()) / 4.0;
+        const double quarter = places.whole().longitude().width() / 4.0;
         look.longitude -= quarter;
         for (int i = 1; i <= 3; ++i, look.longitude += quarter) {
             Geodetic eye = look;

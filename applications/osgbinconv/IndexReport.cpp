@@ -25,16 +25,14 @@ using osgAnalyticBin::BinIndex;
 namespace {
 
 using Entry = BinIndex::Entry;
+using osgAnalyticBin::core::Interval;
 
 struct Statistics {
     std::size_t tiles = 0;
     std::size_t unknown = 0;
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    double lowest = HUGE_VAL;  // in the finest tiles
-    double highest = -HUGE_VAL;
-    double narrowest = HUGE_VAL;  // radians of longitude, or of a map's x
-    double widest = 0.0;
+    Interval altitudes = Interval::none();
+    Interval finest = Interval::none();  // altitudes in the finest tiles
+    Interval widths = Interval::none();  // radians of longitude, or of a map's x
 
     void add(const Entry& entry) {
         ++tiles;
@@ -43,20 +41,12 @@ struct Statistics {
             return;
         }
         const osgAnalyticBin::core::GeodeticBin& bin = entry.bin.bin();
-        low = std::min(low, bin.altitude().lower);
-        high = std::max(high, bin.altitude().upper);
+        altitudes = altitudes.united(bin.altitude());
         const double width = bin.longitude().width();
         constexpr double kMuchNarrower = 0.75;
-        if (width < kMuchNarrower * narrowest) {
-            lowest = HUGE_VAL;
-            highest = -HUGE_VAL;
-        }
-        narrowest = std::min(narrowest, width);
-        if (kMuchNarrower * width < narrowest) {
-            lowest = std::min(lowest, entry.ownLow);
-            highest = std::max(highest, bin.altitude().upper);
-        }
-        widest = std::max(widest, width);
+        if (width < kMuchNarrower * widths.lower) finest = Interval::none();
+        widths.expandBy(width);
+        if (kMuchNarrower * width < widths.lower) finest = finest.united({entry.ownLow, bin.altitude().upper});
     }
 };
 
@@ -103,8 +93,8 @@ void printWidths(const Statistics& all, bool isMap) {
     constexpr double kDegreesPerRadian = 57.29577951308232087680;
     const double unit = isMap ? osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian : kDegreesPerRadian;
     // of a quadtree, whose tiles halve from level to level
-    const double levels = std::round(std::log2(all.widest / all.narrowest)) + 1.0;
-    std::printf("widths       %.6g .. %.6g %s, some %.0f levels\n", all.narrowest * unit, all.widest * unit,
+    const double levels = std::round(std::log2(all.widths.upper / all.widths.lower)) + 1.0;
+    std::printf("widths       %.6g .. %.6g %s, some %.0f levels\n", all.widths.lower * unit, all.widths.upper * unit,
                 isMap ? "m in a map" : "degrees of longitude", levels);
 }
 
@@ -128,9 +118,9 @@ void printIndex(const std::string& file) {
     std::printf("tiles        %zu in %zu files\n", all.tiles, index->fileCount());
     std::printf("without bounds %zu\n", all.unknown);
     if (all.unknown < all.tiles) {
-        std::printf("heights      %.0f .. %.0f m in the finest tiles\n", all.lowest, all.highest);
-        std::printf("bins         %.0f .. %.0f m: coarse tiles are flat, and sag below the ground\n", all.low,
-                    all.high);
+        std::printf("heights      %.0f .. %.0f m in the finest tiles\n", all.finest.lower, all.finest.upper);
+        std::printf("bins         %.0f .. %.0f m: coarse tiles are flat, and sag below the ground\n",
+                    all.altitudes.lower, all.altitudes.upper);
         if (const std::optional<bool> isMap = isOfMap(path, *index)) {
             printWidths(all, *isMap);
         } else {

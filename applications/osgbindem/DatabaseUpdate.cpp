@@ -99,7 +99,7 @@ public:
         SurveyedTile surveyed = _builder.surveyAlone(tile);
         surveyed.below = standingBin(tile);
         if (!surveyed.below.valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
-        surveyed.range = {surveyed.below.bin().altitude().lower, surveyed.below.bin().altitude().upper};
+        surveyed.range = surveyed.below.bin().altitude();
         return surveyed;
     }
 

@@ -116,38 +116,38 @@ std::optional<FoundHeight> DemMosaic::heightFrom(std::size_t source, const Posit
     return std::nullopt;
 }
 
-bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, HeightRange& range) {
+bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, Interval& range) {
     if (_shifts[source].isNone()) return _sources[source]->addRange(rect, range);
-    HeightRange above;
+    Interval above = Interval::none();
     const bool isComplete = _sources[source]->addRange(rect, above);
-    if (above.empty()) return isComplete;
+    if (above.width() < 0.0) return isComplete;
     // Between these places the geoid differs by no more than its steepest slope allows.
     constexpr int kPlaces = 16;
     constexpr double kSteepest = 25.0;  // metres a degree
     const double margin = kSteepest * std::max(rect.north - rect.south, rect.east - rect.west) / kPlaces;
-    HeightRange shift;
+    Interval shift = Interval::none();
     for (int row = 0; row <= kPlaces; ++row) {
         for (int column = 0; column <= kPlaces; ++column) {
             const PositionDeg position{rect.south + (rect.north - rect.south) * row / kPlaces,
                                        rect.west + (rect.east - rect.west) * column / kPlaces};
-            if (_sources[source]->grid().locate(position)) shift.include(_shifts[source].at(position));
+            if (_sources[source]->grid().locate(position)) shift.expandBy(_shifts[source].at(position));
         }
     }
-    if (shift.empty()) return isComplete;
-    range.include(above.lower + shift.lower - margin);
-    range.include(above.upper + shift.upper + margin);
+    if (shift.width() < 0.0) return isComplete;
+    range.expandBy(above.lower + shift.lower - margin);
+    range.expandBy(above.upper + shift.upper + margin);
     return isComplete;
 }
 
-HeightRange DemMosaic::range(const RectDeg& rect) {
-    HeightRange range;
+Interval DemMosaic::range(const RectDeg& rect) {
+    Interval range = Interval::none();
     bool isCovered = false;
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         const bool isComplete = addRange(i, rect, range);
         if (isComplete && !_sources[i]->layer().isBlendedIn(rect)) return range;
         isCovered = isCovered || isComplete;
     }
-    if (!isCovered) range.include(0.0);
+    if (!isCovered) range.expandBy(0.0);
     return range;
 }
 

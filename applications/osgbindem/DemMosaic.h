@@ -61,7 +61,7 @@ public:
     }
 
     /// Heights of every post, of every raster used in the rectangle, that has part in it.
-    [[nodiscard]] HeightRange range(const RectDeg& rect);
+    [[nodiscard]] Interval range(const RectDeg& rect);
 
     /// Whether a raster finer than the spacing has a part in the rectangle, and whether it has data there.
     [[nodiscard]] bool hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept;
@@ -90,7 +90,7 @@ private:
     [[nodiscard]] FoundHeight below(std::size_t source, const PositionDeg& position);
 
     /// As DemSource::addRange(), above the ellipsoid.
-    [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
+    [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, Interval& range);
 
     double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;

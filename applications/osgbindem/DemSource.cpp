@@ -41,9 +41,6 @@ const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noex
 }
 
 double DemSource::post(int column, int row) {
-    for (const Page& page : _pages) {
-        if (page.window.contains(column, row)) return page.heights[static_cast<std::size_t>(page.offset(column, row))];
-    }
     read({column, row, 1, 1}, _single);
     return _single.front();
 }
@@ -115,7 +112,7 @@ void DemSource::readInParts(
     }
 }
 
-bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
+bool DemSource::addRange(const RectDeg& rect, Interval& range) {
     bool isComplete = grid().covers(rect);
     readInParts(grid().touching(rect), 1e6, [&](const PixelWindow& part, const std::vector<double>& heights) {
         for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -126,7 +123,7 @@ bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
                 height = filled.metres;
                 isComplete = isComplete && !filled.isRival && !std::isnan(height);
             }
-            if (!std::isnan(height)) range.include(height);
+            if (!std::isnan(height)) range.expandBy(height);
         }
         return true;
     });

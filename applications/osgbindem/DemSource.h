@@ -6,27 +6,16 @@
 #include "RasterLayer.h"
 #include "VoidFill.h"
 
-#include <algorithm>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace osgbindem {
 
-/// The heights found in an area, in metres; empty when lower > upper.
-struct HeightRange {
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-
-    [[nodiscard]] bool empty() const noexcept { return lower > upper; }
-    void include(double height) noexcept { include({height, height}); }
-    void include(const HeightRange& other) noexcept {
-        lower = std::min(lower, other.lower);
-        upper = std::max(upper, other.upper);
-    }
-};
+using osgAnalyticBin::core::Interval;
 
 /// One layer of elevation rasters. Reads windows only; keeps the last window that was prefetched.
 /// Not for use by several threads: each has its own.
@@ -53,7 +42,7 @@ public:
 
     /// Adds the heights of all posts that have part in the rectangle, voids filled.
     /// Returns: whether the layer has heights everywhere in the rectangle.
-    bool addRange(const RectDeg& rect, HeightRange& range);
+    bool addRange(const RectDeg& rect, Interval& range);
 
     /// Reads what touches the rectangle into memory, if it is not there and is not too much.
     /// Returns: the posts now in memory, at most mostPosts.

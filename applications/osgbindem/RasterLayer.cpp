@@ -8,6 +8,7 @@
 
 #include <cpl_string.h>
 #include <gdal_utils.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
@@ -235,8 +236,7 @@ double BlendBand::shareWithin(const PositionDeg& position) const noexcept {
         const double x = east * gap(longitude, longitude, edge.west, edge.east);
         nearest = std::min(nearest, x * x + y * y);
     }
-    const double share = std::min(_metresPerDegree * std::sqrt(nearest) / _width, 1.0);
-    return share * share * (3.0 - 2.0 * share);
+    return glm::smoothstep(0.0, 1.0, _metresPerDegree * std::sqrt(nearest) / _width);
 }
 
 bool BlendBand::touches(const RectDeg& rect) const noexcept {

@@ -54,11 +54,4 @@ std::string Tally::warning() const {
     return out.str();
 }
 
-HeightRange rangeOf(const osgAnalyticBin::TerrainGrid& grid) noexcept {
-    HeightRange range;
-    for (int row = 0; row <= grid.cells; ++row)
-        for (int column = 0; column <= grid.cells; ++column) range.include(grid.height(column, row));
-    return range;
-}
-
 }  // namespace osgbindem

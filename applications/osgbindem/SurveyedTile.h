@@ -52,7 +52,7 @@ struct SurveyedTile {
     /// The tile as it is stored, but for its colours.
     osgAnalyticBin::TerrainGrid grid;
     /// The full-resolution heights under the tile.
-    HeightRange range;
+    Interval range = Interval::none();
     /// Of the tile and everything below it.
     Tally tally;
     /// Holds the bins of all tiles below; not valid for a tile without children.
@@ -60,8 +60,5 @@ struct SurveyedTile {
     /// What the files below the tile add up to, in whatever order they were written or read back.
     std::uint64_t checksum = 0;
 };
-
-/// The lowest and the highest post of a tile.
-[[nodiscard]] HeightRange rangeOf(const osgAnalyticBin::TerrainGrid& grid) noexcept;
 
 }  // namespace osgbindem

@@ -11,9 +11,7 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <ogr_spatialref.h>
-#include <osg/CoordinateSystemNode>
 #include <osg/LightModel>
-#include <osg/Material>
 
 #include <algorithm>
 #include <cmath>
@@ -131,11 +129,7 @@ void TileBuilder::finishSurvey(SurveyedTile& tile) {
         samplePost(tile, -1, i);
         samplePost(tile, grid.cells + 1, i);
     }
-    const int half = grid.cells / 2;
-    const PostId middle{tile.id.level, grid.firstColumn + half, grid.firstRow + half};
-    const HeightRange range = rangeOf(grid);
-    const glm::dvec3 point = grid.ellipsoid.toEcef(_layout.geodetic(middle, 0.5 * (range.lower + range.upper)));
-    for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::nearbyint(point[axis] / grid.quantum) * grid.quantum;
+    placeOrigin(grid, _layout, tile.id.level);
     _skirts.measure(tile);
 }
 
@@ -145,7 +139,7 @@ void TileBuilder::buildChildren(SurveyedTile& tile) {
     for (const TileId& childId : tile.id.children()) {
         BuiltTile child = build(childId);
         takePosts(tile, child.survey);
-        tile.range.include(child.survey.range);
+        tile.range = tile.range.united(child.survey.range);
         tile.tally.add(child.survey.tally);
         tile.below.expandBy(child.bin);
         tile.checksum += child.survey.checksum;
@@ -165,8 +159,7 @@ BuiltTile TileBuilder::build(const TileId& id) {
     const SurveyedTile& tile = built.survey;
     TerrainGrid& grid = built.survey.grid;
     const RectDeg rect = id.rect();
-    AnalyticBin bin(GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east},
-                                             {tile.range.lower, tile.range.upper}));
+    AnalyticBin bin(GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, tile.range));
     bin.expandBy(tile.below);
     MeshExtent extent = extentOf(grid, _triangles, id);
     // Where a packed tile is read, vertices may be rounded to the next step, for sines differ in their last bits.
@@ -187,20 +180,11 @@ BuiltTile TileBuilder::build(const TileId& id) {
 namespace {
 
 /// The root node of a database, without tiles.
-osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(
-        new osg::EllipsoidModel(settings.ellipsoid.equatorialRadius(), settings.ellipsoid.polarRadius()));
-    if (settings.isWgs84) {
-        OGRSpatialReference reference;
-        reference.importFromEPSG(4326);
-        root->setFormat("WKT");
-        root->setCoordinateSystem(wktOf(reference));
-    }
-    // Lit, with the vertices' own colours.
-    const osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
-    root->getOrCreateStateSet()->setAttributeAndModes(material);
+osg::ref_ptr<osg::CoordinateSystemNode> litRoot(const Settings& settings) {
+    OGRSpatialReference reference;
+    if (settings.isWgs84) reference.importFromEPSG(4326);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root =
+        makeRoot(settings.ellipsoid, settings.isWgs84 ? wktOf(reference) : std::string());
     // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
     constexpr float kAmbient = 0.5F;
     const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
@@ -209,36 +193,19 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
     return root;
 }
 
-/// Declares below what nothing is drawn: a globe is whole, so that what lies behind it is hidden. Of a region nothing
-/// is declared: where its horizon can be used is found out when it is shown.
-void declareHorizon(osg::Group& root, const TileLayout& layout) {
-    if (layout.isRegional()) {
-        root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
-        return;
-    }
-    double lowest = 0.0;
-    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
-        const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));
-        lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
-    }
-    osgAnalyticBin::CullOptions options;
-    options.horizonUse = osgAnalyticBin::HorizonUse::Given;
-    options.horizon = std::floor(lowest);
-    root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback(options));
-}
-
 }  // namespace
 
 std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
                           const TileLayout& layout) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(settings);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = litRoot(settings);
     const std::vector<std::uint16_t> triangles = osgAnalyticBin::trianglesOf(layout.cells());
     SharedParts shared(settings.packed ? std::vector<std::uint16_t>() : triangles, layout.cells());
     for (const BuiltTile& tile : startTiles) {
         root->addChild(tile.node);
         shared.addTo(*tile.geometry, tile.survey.grid.textureSize);
     }
-    declareHorizon(*root, layout);
+    // Where the horizon of a region can be used is found out when it is shown.
+    layout.isRegional() ? root->setUpdateCallback(new osgAnalyticBin::InstallBinsCallback) : declareHorizon(*root);
     return nodeFileBytes(*root, settings.compress);
 }
 

@@ -5,6 +5,7 @@
 
 #include "PackedTerrain.h"
 #include "Relief.h"
+#include "TileNode.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -142,7 +143,7 @@ constexpr double kMargin = 1e-6;
 /// altitude those that are higher than the lowest post by more than chords sag, and lower than the highest.
 class Extremes {
 public:
-    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid), _range(rangeOf(grid)) {
+    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid), _range(heightsOf(grid)) {
         const auto posts = static_cast<std::size_t>(grid.cells + 1);
         const double reach = std::max(std::abs(_range.lower), std::abs(_range.upper));
         const osgAnalyticBin::core::GeodeticGridBounds bounds(
@@ -172,7 +173,7 @@ public:
 
 private:
     const TerrainGrid& _grid;
-    HeightRange _range;
+    osgAnalyticBin::core::Interval _range;
     double _rounding;
     double _sag;
 };

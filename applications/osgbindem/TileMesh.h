@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "SurveyedTile.h"
+#include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>

@@ -3,12 +3,15 @@
 
 #include "TileNode.h"
 
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
 #include <glm/geometric.hpp>
-#include <osg/CoordinateSystemNode>
+#include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgbindem {
 
@@ -39,6 +42,42 @@ osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const T
     grid.firstRow = first.row;
     grid.quantum = layout.quantum(tile.level);
     return grid;
+}
+
+osgAnalyticBin::core::Interval heightsOf(const osgAnalyticBin::TerrainGrid& grid) {
+    auto heights = osgAnalyticBin::core::Interval::none();
+    for (int row = 0; row <= grid.cells; ++row)
+        for (int column = 0; column <= grid.cells; ++column) heights.expandBy(grid.height(column, row));
+    return heights;
+}
+
+void placeOrigin(osgAnalyticBin::TerrainGrid& grid, const TileLayout& layout, int level) {
+    const int half = grid.cells / 2;
+    const PostId middle{level, grid.firstColumn + half, grid.firstRow + half};
+    const glm::dvec3 point = grid.ellipsoid.toEcef(layout.geodetic(middle, heightsOf(grid).middle()));
+    for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::nearbyint(point[axis] / grid.quantum) * grid.quantum;
+}
+
+osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+                                                 const std::string& wkt) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(wkt.empty() ? "" : "WKT", wkt);
+    root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()));
+    const osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    root->getOrCreateStateSet()->setAttributeAndModes(material);
+    return root;
+}
+
+void declareHorizon(osg::Group& root) {
+    double lowest = 0.0;
+    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
+        const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));
+        lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
+    }
+    osgAnalyticBin::CullOptions options;
+    options.horizonUse = osgAnalyticBin::HorizonUse::Given;
+    options.horizon = std::floor(lowest);
+    root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback(options));
 }
 
 osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef) {

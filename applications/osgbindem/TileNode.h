@@ -9,6 +9,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <glm/vec3.hpp>
+#include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
 #include <osg/Group>
 
@@ -18,6 +19,20 @@ namespace osgbindem {
 
 /// What the grid of a tile is apart from its heights: its size, and its place among the posts of its level.
 [[nodiscard]] osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile);
+
+/// The lowest and the highest of a tile's own posts.
+[[nodiscard]] osgAnalyticBin::core::Interval heightsOf(const osgAnalyticBin::TerrainGrid& grid);
+
+/// Places the grid's origin in its middle, between its lowest and its highest post. Requires: it has its heights.
+void placeOrigin(osgAnalyticBin::TerrainGrid& grid, const TileLayout& layout, int level);
+
+/// The root node of a globe, without tiles: lit, with the vertices' own colours. `wkt`: its reference system.
+[[nodiscard]] osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+                                                               const std::string& wkt);
+
+/// Declares below what nothing is drawn: a globe is whole, so that what lies behind it is hidden. Requires: the root
+/// has the tiles with their bins.
+void declareHorizon(osg::Group& root);
 
 /// Puts the geometry at its place on the globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef);

@@ -8,6 +8,7 @@
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +80,7 @@ std::vector<float> distancesTo(std::vector<GByte> isKnown, int width, int height
 
 /// 1 up to `from`, 0 from `to` on, smooth between them.
 double fade(double value, double from, double to) {
-    const double share = std::clamp((to - value) / (to - from), 0.0, 1.0);
-    return share * share * (3.0 - 2.0 * share);
+    return glm::smoothstep(to, from, value);
 }
 
 }  // namespace

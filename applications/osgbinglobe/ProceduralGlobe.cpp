@@ -5,12 +5,9 @@
 
 #include "Angles.h"
 
-#include <osgAnalyticBin/InstallBinsCallback.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
-#include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
-#include <osg/Material>
 
 #include <Relief.h>
 #include <algorithm>
@@ -37,35 +34,9 @@ core::Ellipsoid wgs84() {
     return {model->getRadiusEquator(), model->getRadiusPolar()};
 }
 
-glm::dvec3 rounded(const glm::dvec3& point, double quantum) {
-    return {std::nearbyint(point.x / quantum) * quantum, std::nearbyint(point.y / quantum) * quantum,
-            std::nearbyint(point.z / quantum) * quantum};
-}
-
-// Of the tile's own posts.
-core::Interval rangeOf(const TerrainGrid& grid) {
-    core::Interval range{HUGE_VAL, -HUGE_VAL};
-    for (int row = 0; row <= grid.cells; ++row)
-        for (int column = 0; column <= grid.cells; ++column) {
-            const double height = grid.height(column, row);
-            range = {std::min(range.lower, height), std::max(range.upper, height)};
-        }
-    return range;
-}
-
-osg::ref_ptr<osg::CoordinateSystemNode> emptyRoot() {
-    osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    root->setFormat("WKT");
-    root->setCoordinateSystem(
-        "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
-        "UNIT[\"degree\",0.0174532925199433]]");
-    // The only StateSet of the globe: lit, with the vertices' own colours.
-    const osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
-    root->getOrCreateStateSet()->setAttributeAndModes(material);
-    return root;
-}
+constexpr const char* kWkt =
+    "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+    "UNIT[\"degree\",0.0174532925199433]]";
 
 }  // namespace
 
@@ -123,7 +94,7 @@ AnalyticBin ProceduralGlobe::binOf(const TileId& tile, const core::Interval& own
 }
 
 AnalyticBin ProceduralGlobe::binOf(const TileId& tile) const {
-    return binOf(tile, rangeOf(gridOf(tile)));
+    return binOf(tile, osgbindem::heightsOf(gridOf(tile)));
 }
 
 TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
@@ -135,8 +106,7 @@ TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
         for (int column = -1; column <= grid.cells + 1; ++column)
             grid.heights.push_back(static_cast<std::int32_t>(
                 std::nearbyint(_terrain.height(_layout.position(postAt(column, row))) / kStep)));
-    const core::Geodetic middle = _layout.geodetic(postAt(grid.cells / 2, grid.cells / 2), rangeOf(grid).middle());
-    grid.origin = rounded(_layout.ellipsoid().toEcef(middle), grid.quantum);
+    osgbindem::placeOrigin(grid, _layout, tile.level);
     const auto posts = static_cast<std::size_t>(grid.cells + 1);
     const auto depth = static_cast<std::int32_t>(skirtDepth(tile.level) / kStep);
     for (const osgbindem::Edge edge : osgbindem::kEdges) {
@@ -157,7 +127,7 @@ osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osg::Primi
     fillGeometry(grid, *geometry);
     geometry->addPrimitiveSet(&triangles);
     const osg::ref_ptr<osg::Node> placed = osgbindem::makePlaced(*geometry, grid.origin);
-    const core::Interval own = rangeOf(grid);
+    const core::Interval own = osgbindem::heightsOf(grid);
     const double surfaceLow = meshBox(tile, tile.level, own).altitude().lower + skirtDepth(tile.level);
     const osgbindem::TileFacts facts{binOf(tile, own), surfaceLow, _layout, _options.lod,
                                      hasChildren(tile) ? childrenFileOf(tile, _options) : ""};
@@ -175,22 +145,11 @@ osg::ref_ptr<osg::Node> ProceduralGlobe::children(const TileId& tile) const {
 }
 
 osg::ref_ptr<osg::Node> ProceduralGlobe::root() const {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = emptyRoot();
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = osgbindem::makeRoot(_layout.ellipsoid(), kWkt);
     const osg::ref_ptr<osg::PrimitiveSet> triangles =
         new osg::DrawElementsUShort(GL_TRIANGLES, _triangles.begin(), _triangles.end());
-    double lowest = 0.0;
-    for (int y = 0; y < TileId::kStartRows; ++y) {
-        for (int x = 0; x < TileId::kStartColumns; ++x) {
-            root->addChild(tileNode({0, x, y}, *triangles));
-            const AnalyticBin bin = binOf({0, x, y});
-            lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
-        }
-    }
-    if (!_options.bins) return root;
-    CullOptions options;
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = std::floor(lowest);
-    root->setUpdateCallback(new InstallBinsCallback(options));
+    for (const TileId& tile : _layout.startTiles()) root->addChild(tileNode(tile, *triangles));
+    if (_options.bins) osgbindem::declareHorizon(*root);
     return root;
 }
 

@@ -3,6 +3,8 @@
 
 #include "Relief.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,11 +40,6 @@ double between(const std::array<SnowStop, Count>& stops, double latitudeDeg) {
     return stops[i - 1].height + std::clamp(share, 0.0, 1.0) * (stops[i].height - stops[i - 1].height);
 }
 
-double smooth(double share) {
-    const double s = std::clamp(share, 0.0, 1.0);
-    return s * s * (3.0 - 2.0 * s);
-}
-
 }  // namespace
 
 double snowLine(double latitudeDeg) noexcept {
@@ -52,8 +49,8 @@ double snowLine(double latitudeDeg) noexcept {
 double snowShare(double height, double snowLine, const glm::dvec3& normalLocal) noexcept {
     constexpr double kFringe = 700.0;
     if (height <= 0.0 || height <= snowLine - 0.5 * kFringe) return 0.0;
-    const double share = smooth((height - snowLine + 0.5 * kFringe) / kFringe);
-    return share * (0.4 + 0.6 * smooth((normalLocal.z - 0.5) / 0.35));
+    const double share = glm::smoothstep(0.0, 1.0, (height - snowLine + 0.5 * kFringe) / kFringe);
+    return share * (0.4 + 0.6 * glm::smoothstep(0.0, 1.0, (normalLocal.z - 0.5) / 0.35));
 }
 
 double exaggerationFor(double spacing) noexcept {

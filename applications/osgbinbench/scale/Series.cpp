@@ -4,6 +4,7 @@
 #include "Series.h"
 
 #include "Angles.h"
+#include "ClusterCallbacks.h"
 #include "CullTimer.h"
 #include "Quantiles.h"
 #include "VerdictReplay.h"
@@ -81,18 +82,13 @@ std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     return path;
 }
 
-class PagedLodFinder : public osg::NodeVisitor {
-public:
-    explicit PagedLodFinder(osg::Node& node) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { node.accept(*this); }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::PagedLOD& node) override {
-        found.emplace_back(&node);
-        traverse(node);
-    }
-
+PagedLods pagedLodsIn(osg::Node& scene) {
     PagedLods found;
-};
+    bench::forAllNodes(scene, [&](osg::Node& node) {
+        if (auto* const paged = dynamic_cast<osg::PagedLOD*>(&node)) found.emplace_back(paged);
+    });
+    return found;
+}
 
 // Reads the finer children of a PagedLOD and merges them as the DatabasePager does.
 PagedLods loadChildren(osg::PagedLOD& node) {
@@ -102,7 +98,7 @@ PagedLods loadChildren(osg::PagedLOD& node) {
         osgDB::readRefNodeFile(node.getDatabasePath() + node.getFileName(kFiner), options);
     if (!file) throw Failure(node.getFileName(kFiner) + ": cannot be made");
     node.addChild(file);
-    return PagedLodFinder(*file).found;
+    return pagedLodsIn(*file);
 }
 
 // Loads tiles of the hemisphere away from the eye, coarse ones first, until there are that many PagedLODs in all.
@@ -110,7 +106,7 @@ PagedLods loadChildren(osg::PagedLOD& node) {
 // more.
 std::pair<std::size_t, std::size_t> fill(MethodScene& scene, const CameraPose& pose, std::size_t pagedLods) {
     const osg::Vec3d eye = osg::Matrixd::inverse(scene.camera().getViewMatrix()).getTrans();
-    const PagedLods loaded = PagedLodFinder(scene.root()).found;
+    const PagedLods loaded = pagedLodsIn(scene.root());
     std::deque<osg::ref_ptr<osg::PagedLOD>> frontier;
     for (const auto& node : loaded)
         if (osg::Vec3d(node->getCenter()) * eye < 0.0 && node->getNumChildren() == 1) frontier.push_back(node);
@@ -139,7 +135,7 @@ double msSince(Clock::time_point begin) {
 // all PagedLODs above its target. What is loaded is walked over, but not thrown away.
 double pagerMs(MethodScene& scene, int rounds) {
     constexpr double kNever = 1e9;
-    for (const auto& node : PagedLodFinder(scene.root()).found)
+    for (const auto& node : pagedLodsIn(scene.root()))
         for (unsigned int i = 0; i < node->getNumMinimumExpiryTimes(); ++i) node->setMinimumExpiryTime(i, kNever);
     const osg::ref_ptr<osgDB::DatabasePager> pager = new osgDB::DatabasePager;
     pager->registerPagedLODs(&scene.root(), scene.frameStamp().getFrameNumber());
@@ -166,7 +162,7 @@ Json memoryOf(const std::string& name, const CullMethod& method, int tiles, bool
     const auto scene = makeScene(method, options, watch);
     settle(*scene, far);
     // What is loaded once, and the start tiles, do not count.
-    const std::size_t start = PagedLodFinder(scene->root()).found.size();
+    const std::size_t start = pagedLodsIn(scene->root()).size();
     const double bytes = allocatedBytes();
     const auto begin = Clock::now();
     const auto [before, after] = fill(*scene, far, start + static_cast<std::size_t>(tiles));

@@ -130,9 +130,8 @@ PointMap ecefOf(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin) 
 }
 
 core::Interval rangeOf(const Polyline& points, const std::function<double(const glm::dvec3&)>& value) {
-    core::Interval range{HUGE_VAL, -HUGE_VAL};
-    for (const glm::dvec3& point : points)
-        range = {std::min(range.lower, value(point)), std::max(range.upper, value(point))};
+    core::Interval range = core::Interval::none();
+    for (const glm::dvec3& point : points) range.expandBy(value(point));
     return range;
 }
 

@@ -50,17 +50,14 @@ core::Interval Terrain::findHeights(const TileId& tile) {
     if (tile.level == 0) _source.prefetch(tile.rect());
     core::Interval& heights = _heights[level(tile)][place(tile)];
     if (tile.level == deepestLevel()) return heights = range(tile);
-    heights = {HUGE_VAL, -HUGE_VAL};
-    for (const TileId& child : tile.children()) {
-        const core::Interval part = findHeights(child);
-        heights = {std::min(heights.lower, part.lower), std::max(heights.upper, part.upper)};
-    }
+    heights = core::Interval::none();
+    for (const TileId& child : tile.children()) heights = heights.united(findHeights(child));
     return heights;
 }
 
 core::Interval Terrain::range(const TileId& tile) {
-    osgbindem::HeightRange range;
-    if (!_source.addRange(tile.rect(), range)) range.include(0.0);
+    core::Interval range = core::Interval::none();
+    if (!_source.addRange(tile.rect(), range)) range.expandBy(0.0);
     return {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
 }
 
