@@ -7,6 +7,8 @@
 #include "RasterLayer.h"
 #include "TileMesh.h"
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +23,7 @@ using osgAnalyticBin::support::Failure;
 /// A colour over others.
 struct Cover {
     /// Red, green, blue, 0 to 255.
-    std::array<double, 3> colour{};
+    glm::dvec3 colour{0.0};
     /// 0: what is below is seen, 1: it is not.
     double alpha = 0.0;
 
@@ -29,10 +31,7 @@ struct Cover {
     [[nodiscard]] Cover over(double own, const Cover& below) const {
         Cover cover;
         cover.alpha = own + (1.0 - own) * below.alpha;
-        const double share = own / cover.alpha;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            cover.colour[channel] = below.colour[channel] + share * (colour[channel] - below.colour[channel]);
-        }
+        cover.colour = below.colour + own / cover.alpha * (colour - below.colour);
         return cover;
     }
 };
@@ -91,12 +90,12 @@ public:
             if (alpha == 0) continue;
             const double weight = alpha == kOpaque ? weights[i] : weights[i] * alpha / kOpaque;
             cover.alpha += weight;
-            for (std::size_t channel = 0; channel < 3; ++channel) cover.colour[channel] += weight * pixels[i][channel];
+            cover.colour += weight * glm::dvec3(pixels[i][0], pixels[i][1], pixels[i][2]);
         }
         if (isOpaque) {
             cover.alpha = 1.0;  // a sum of weights may miss it by its rounding
         } else if (cover.alpha > 0.0) {
-            for (double& channel : cover.colour) channel /= cover.alpha;
+            cover.colour /= cover.alpha;
         }
         return cover;
     }
@@ -156,17 +155,13 @@ public:
         const int row = std::min(static_cast<int>(y), _cells - 1);
         const double u = x - column;
         const double v = y - row;
-        const auto post = [&](int east, int north, unsigned int channel) {
-            return static_cast<double>(
-                (*_colours)[static_cast<std::size_t>((row + north) * (_cells + 1) + column + east)][channel]);
+        const auto post = [&](int east, int north) {
+            const auto i = static_cast<std::size_t>((row + north) * (_cells + 1) + column + east);
+            const osg::Vec4ub& colour = (*_colours)[i];
+            return glm::dvec3(colour.r(), colour.g(), colour.b());
         };
-        Cover cover;
-        cover.alpha = 1.0;
-        for (unsigned int c = 0; c < 3; ++c) {
-            cover.colour[c] = (1.0 - v) * ((1.0 - u) * post(0, 0, c) + u * post(1, 0, c)) +
-                              v * ((1.0 - u) * post(0, 1, c) + u * post(1, 1, c));
-        }
-        return cover;
+        return {(1.0 - v) * ((1.0 - u) * post(0, 0) + u * post(1, 0)) + v * ((1.0 - u) * post(0, 1) + u * post(1, 1)),
+                1.0};
     }
 
 private:
@@ -236,7 +231,7 @@ osg::ref_ptr<osg::Image> ImageMosaic::texture(const TileId& tile, const osgAnaly
                 if (!relief) relief.emplace(grid);
                 cover = cover.over(cover.alpha, relief->at(eastShare, northShare));
             }
-            for (const double channel : cover.colour) *target++ = static_cast<std::uint8_t>(channel + 0.5);
+            for (glm::length_t c = 0; c < 3; ++c) *target++ = static_cast<std::uint8_t>(cover.colour[c] + 0.5);
         }
     }
     return image;

@@ -153,6 +153,18 @@ std::array<RectDeg, 3> areasOf(const RasterGrid& grid) {
             {rect.west + 360.0, rect.south, rect.east + 360.0, rect.north}};
 }
 
+using Intervals = std::vector<std::pair<double, double>>;
+
+/// What is left of intervals where another one is taken away.
+Intervals without(const Intervals& intervals, const std::pair<double, double>& other) {
+    Intervals left;
+    for (const auto& [from, to] : intervals) {
+        if (other.first > from) left.emplace_back(from, std::min(other.first, to));
+        if (other.second < to) left.emplace_back(std::max(other.second, from), to);
+    }
+    return left;
+}
+
 /// Metres; 0 when no coarser raster lies below.
 double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, double metresPerDegree) {
     constexpr double kLargestPart = 1.0 / 8.0;
@@ -175,51 +187,40 @@ BlendBand::BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all,
     : _metresPerDegree(radius * kRadiansPerDegree) {
     _width = width ? *width : defaultWidth(grid, all, _metresPerDegree);
     if (!(_width > 0.0)) return;
-    const RectDeg own = grid.extent();
-    _west = own.west;
-    const double pixel = grid.resolutionDeg();
-    // Others that go on beyond the border, as parts of the south, north, west and east edge.
-    std::array<std::vector<RectDeg>, 4> closed;
-    for (const RasterGrid& other : all) {
-        const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
-        const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());
-        for (const RectDeg& rect : areasOf(other)) {
-            const auto goesOn = [&](double beyond, double near) {
-                return beyond > 0.5 * pixel && near > -pixel && (!isCoarser || near < overlap);
-            };
-            if (goesOn(own.south - rect.south, rect.north - own.south)) closed[0].push_back(rect);
-            if (goesOn(rect.north - own.north, own.north - rect.south)) closed[1].push_back(rect);
-            if (goesOn(own.west - rect.west, rect.east - own.west)) closed[2].push_back(rect);
-            if (goesOn(rect.east - own.east, own.east - rect.west)) closed[3].push_back(rect);
-        }
-    }
-    if (own.south > -90.0 + pixel) addEdge({own.west, own.south, own.east, own.south}, closed[0]);
-    if (own.north < 90.0 - pixel) addEdge({own.west, own.north, own.east, own.north}, closed[1]);
-    if (grid.isGlobal()) return;
-    addEdge({own.west, own.south, own.west, own.north}, closed[2]);
-    addEdge({own.east, own.south, own.east, own.north}, closed[3]);
+    _west = grid.extent().west;
+    addEdges(grid, all, true);
+    if (!grid.isGlobal()) addEdges(grid, all, false);
 }
 
-void BlendBand::addEdge(const RectDeg& edge, const std::vector<RectDeg>& closed) {
-    const bool isParallel = edge.south == edge.north;
-    std::vector<std::pair<double, double>> open{isParallel ? std::pair(edge.west, edge.east)
-                                                           : std::pair(edge.south, edge.north)};
-    for (const RectDeg& rect : closed) {
-        const double low = isParallel ? rect.west : rect.south;
-        const double high = isParallel ? rect.east : rect.north;
-        std::vector<std::pair<double, double>> left;
-        for (const auto& [from, to] : open) {
-            if (low > from) left.emplace_back(from, std::min(low, to));
-            if (high < to) left.emplace_back(std::max(high, from), to);
+void BlendBand::addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& all, bool areParallels) {
+    constexpr double kLeast = 1e-4;  // what is left of an edge by rounding is no border
+    const auto along = [&](const RectDeg& r) {
+        return areParallels ? std::pair(r.west, r.east) : std::pair(r.south, r.north);
+    };
+    const auto across = [&](const RectDeg& r) {
+        return areParallels ? std::pair(r.south, r.north) : std::pair(r.west, r.east);
+    };
+    const double pixel = grid.resolutionDeg();
+    const auto [first, last] = across(grid.extent());
+    for (const auto& [border, outward] : {std::pair(first, -1.0), {last, 1.0}}) {
+        if (areParallels && border * outward >= 90.0 - pixel) continue;
+        Intervals open{along(grid.extent())};
+        // Less where others go on beyond the border.
+        for (const RasterGrid& other : all) {
+            const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
+            const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());
+            for (const RectDeg& rect : areasOf(other)) {
+                const auto [low, high] = across(rect);
+                const double beyond = outward < 0.0 ? border - low : high - border;
+                const double near = outward < 0.0 ? high - border : border - low;
+                if (beyond > 0.5 * pixel && near > -pixel && (!isCoarser || near < overlap))
+                    open = without(open, along(rect));
+            }
         }
-        open = std::move(left);
-    }
-    // What is left of an edge by rounding is no border.
-    constexpr double kLeast = 1e-4;
-    for (const auto& [from, to] : open) {
-        if (to - from < kLeast) continue;
-        _edges.push_back(isParallel ? RectDeg{from, edge.south, to, edge.north}
-                                    : RectDeg{edge.west, from, edge.east, to});
+        for (const auto& [from, to] : open) {
+            if (to - from < kLeast) continue;
+            _edges.push_back(areParallels ? RectDeg{from, border, to, border} : RectDeg{border, from, border, to});
+        }
     }
 }
 

@@ -10,6 +10,8 @@
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <osg/Texture2D>
 
 #include <algorithm>
@@ -22,10 +24,8 @@ namespace osgbindem {
 
 namespace {
 
-using Colour = std::array<int, 3>;
+using Colour = glm::ivec3;
 using Block = std::array<Colour, 16>;
-
-constexpr std::array<int, 3> kBits{5, 6, 5};
 
 Block blockAt(const osg::Image& image, int column, int row) {
     Block block;
@@ -40,31 +40,24 @@ Block blockAt(const osg::Image& image, int column, int row) {
 std::array<Colour, 2> endsOf(const Block& block) {
     Colour low = block[0];
     Colour high = block[0];
-    Colour sum{};
+    Colour sum(0);
     for (const Colour& colour : block) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            low[c] = std::min(low[c], colour[c]);
-            high[c] = std::max(high[c], colour[c]);
-            sum[c] += colour[c];
-        }
+        low = glm::min(low, colour);
+        high = glm::max(high, colour);
+        sum += colour;
     }
     // green weighs most in what is seen; the others run with it or against it
-    for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
-        std::int64_t covariance = 0;
-        for (const Colour& colour : block)
-            covariance += std::int64_t{16 * colour[c] - sum[c]} * (16 * colour[1] - sum[1]);
-        if (covariance < 0) std::swap(low[c], high[c]);
-    }
+    Colour covariance(0);
+    for (const Colour& colour : block) covariance += (16 * colour - sum) * (16 * colour.g - sum.g);
+    for (const int c : {0, 2})
+        if (covariance[c] < 0) std::swap(low[c], high[c]);
     return {high, low};
 }
 
+/// Five bits of red, six of green and five of blue.
 std::uint16_t rounded(const Colour& colour) {
-    std::uint32_t bits = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const int most = (1 << kBits[c]) - 1;
-        bits = (bits << kBits[c]) | static_cast<std::uint32_t>((colour[c] * most + 127) / 255);
-    }
-    return static_cast<std::uint16_t>(bits);
+    const Colour bits = (colour * Colour(31, 63, 31) + 127) / 255;
+    return static_cast<std::uint16_t>((bits.r << 11) | (bits.g << 5) | bits.b);
 }
 
 Colour shown(std::uint16_t bits) {
@@ -75,17 +68,13 @@ Colour shown(std::uint16_t bits) {
 }
 
 std::uint32_t nearest(const Colour& colour, const std::array<Colour, 4>& palette) {
-    std::uint32_t best = 0;
-    int least = 1 << 30;
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        int distance = 0;
-        for (std::size_t c = 0; c < 3; ++c) distance += (colour[c] - palette[i][c]) * (colour[c] - palette[i][c]);
-        if (distance < least) {
-            least = distance;
-            best = i;
-        }
-    }
-    return best;
+    const auto distance = [&](const Colour& other) {
+        const Colour way = colour - other;
+        return way.r * way.r + way.g * way.g + way.b * way.b;
+    };
+    const auto best = std::min_element(palette.begin(), palette.end(),
+                                       [&](const Colour& a, const Colour& b) { return distance(a) < distance(b); });
+    return static_cast<std::uint32_t>(best - palette.begin());
 }
 
 void store(const Block& block, unsigned char* target) {
@@ -96,11 +85,9 @@ void store(const Block& block, unsigned char* target) {
     if (first < second) std::swap(first, second);
     std::uint32_t indices = 0;
     if (first != second) {
-        std::array<Colour, 4> palette{shown(first), shown(second), {}, {}};
-        for (std::size_t c = 0; c < 3; ++c) {
-            palette[2][c] = (2 * palette[0][c] + palette[1][c]) / 3;
-            palette[3][c] = (palette[0][c] + 2 * palette[1][c]) / 3;
-        }
+        const Colour a = shown(first);
+        const Colour b = shown(second);
+        const std::array<Colour, 4> palette{a, b, (2 * a + b) / 3, (a + 2 * b) / 3};
         for (std::uint32_t i = 0; i < 16; ++i) indices |= nearest(block[i], palette) << (2 * i);
     }
     for (int i = 0; i < 2; ++i) target[i] = static_cast<unsigned char>(first >> (8 * i));
