@@ -310,7 +310,7 @@ FAULTS = [
     Fault("what OSG leaves out by a group's sphere counts as drawn", "src/kit/cull/SelectionEvidence.cpp",
           "if (isLeftOutInView(tile, mesh)) doubt();", "", NODE, "Spheres.*"),
     Fault("what OSG leaves out by a mesh's own sphere counts as drawn", "src/kit/cull/SelectionEvidence.cpp",
-          "((isScaled && tile.isEnteredByOsg) || BoundWatch::hasOwnBound(mesh))", "isScaled && tile.isEnteredByOsg", SCENES, NAMED),
+          "((isScaled && tile.isEnteredByOsg) || hasOwnBounds(mesh))", "isScaled && tile.isEnteredByOsg", SCENES, NAMED),
     Fault("groups that OSG drops as small features count as drawn", "src/kit/cull/SelectionWalk.cpp",
           "_searches && !_isBelowOutOfView && isSmallFeature(node)", "false", NODE, "Spheres.*"),
     Fault("groups in a tile that OSG drops as small features count as drawn", "src/kit/cull/SelectionEvidence.cpp",
