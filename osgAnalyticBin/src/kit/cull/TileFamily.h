@@ -123,8 +123,8 @@ public:
     /// Whether children were added or taken away since the family was made.
     [[nodiscard]] bool hasChanged(const osg::Group& group) const;
 
-    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile that
-    /// is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
+    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile
+    /// that is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
     [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child) const {
         return slot < _withoutTiles.size() && _withoutTiles[slot] == &child;
     }
