@@ -152,12 +152,16 @@ void TileFamily::findWithoutTiles(const osg::Group& group, const TileFamily* old
     std::unordered_set<const osg::Node*> known;
     if (old) known.insert(old->_withoutTiles.begin(), old->_withoutTiles.end());
     _withoutTiles.resize(_nodes.size());
+    bool hasAny = false;
     for (unsigned int i = 0; i < _nodes.size(); ++i) {
         const osg::Node* const child = group.getChild(i);
-        const bool isKnown = _nodes[i] || known.count(child) != 0;
-        const AnalyticBinCullCallback* const tile = isKnown && _ellipsoid ? nullptr : firstTile(*child);
-        if (tile && !_ellipsoid) _ellipsoid = tile->ellipsoid();
-        if (!_nodes[i] && (isKnown || !tile)) _withoutTiles[i] = child;
+        if (_nodes[i] || (known.count(child) == 0 && firstTile(*child))) continue;
+        _withoutTiles[i] = child;
+        hasAny = true;
+    }
+    for (std::size_t i = 0; hasAny && !_ellipsoid && i < _nodes.size(); ++i) {
+        const AnalyticBinCullCallback* const tile = _nodes[i] ? firstTile(*_nodes[i]) : nullptr;
+        if (tile) _ellipsoid = tile->ellipsoid();
     }
 }
 
