@@ -209,6 +209,8 @@ FAULTS = [
           "SpheresOfMeshes.*"),
     Fault("walks go through models", "src/kit/cull/TileFamily.cpp", "        _withoutTiles[i] = child;\n", "", NODE,
           "Models.*"),
+    Fault("walks go through models where tiles are not tested together", "src/kit/cull/SelectionWalk.cpp",
+          "if (!family || !family->isWithoutTiles(i, child)) selectNode(child);", "selectNode(child);", NODE, "Models.*"),
     Fault("what adds to a mesh without covering it is searched", "src/kit/cull/SelectionEvidence.cpp",
           "!(_isAdded && hasGapBelow(tile))", "true", NODE, "Models.*"),
     Fault("tiles that come among models are never looked for", "src/kit/cull/TileFamily.cpp",

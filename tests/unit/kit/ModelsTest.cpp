@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osgDB/WriteFile>
 
 #include <functional>
@@ -66,6 +67,18 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     globe.root->addChild(later.group);
     globe.settle();
     EXPECT_FALSE(globe.isLookedAt(*later.model));
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+}
+
+// As below an osgTerrain::Terrain, the tiles are not tested together there.
+TEST(Models, BesideTilesBelowATransformAreLeftToOsg) {
+    GlobeWithModels globe;
+    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
+    for (const auto& tile : globe.tiles) above->addChild(tile);
+    above->addChild(globe.models.group);
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    globe.root->addChild(above);
+    globe.install();
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
 }
 

@@ -82,7 +82,10 @@ void SelectionWalk::selectChildren(osg::Group& group, const TileFamily* family) 
     if (isFamily && _keeps && _segment == TileSelection::kNone) return void(selectBelow(group, *family));
     if (isFamily) return selectFamily(group, *family);
     if (family && _keeps && family->hasChanged(group)) _view.database->noteChanged(group);
-    for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
+    for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
+        osg::Node& child = *group.getChild(i);
+        if (!family || !family->isWithoutTiles(i, child)) selectNode(child);
+    }
 }
 
 // Whether all columns below a group are out of view, and none is about the eye.

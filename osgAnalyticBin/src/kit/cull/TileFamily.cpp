@@ -72,7 +72,7 @@ TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i)
         _hasOthers = addOther(*group.getChild(i), i, old) || _hasOthers;
-    if (isPlain(group)) findWithoutTiles(group, old);
+    findWithoutTiles(group, old);
     if (_hasOthers || !hasSameChildren(group)) _block->columnUnion().addDoubts(1);
 }
 
@@ -159,7 +159,8 @@ void TileFamily::findWithoutTiles(const osg::Group& group, const TileFamily* old
         _withoutTiles[i] = child;
         hasAny = true;
     }
-    for (std::size_t i = 0; hasAny && !_ellipsoid && i < _nodes.size(); ++i) {
+    const bool mayCull = hasAny && isPlain(group);
+    for (std::size_t i = 0; mayCull && !_ellipsoid && i < _nodes.size(); ++i) {
         const AnalyticBinCullCallback* const tile = _nodes[i] ? firstTile(*_nodes[i]) : nullptr;
         if (tile) _ellipsoid = tile->ellipsoid();
     }
