@@ -96,25 +96,20 @@ TEST(Models, InTheFileOfATileAreLeftToOsg) {
 
 // What adds to a tile's own mesh does not cover anything.
 TEST(Models, InAFileThatAddsToATileAreLeftToOsg) {
-    FiledGlobe globe;
-    pageOut(*globe.tile);
-    globe.tile->setRange(0, 0.0f, 1e10f);
-    globe.tile->setRange(1, 0.0f, 1e9f);
-    const Models models;
-    ASSERT_TRUE(osgDB::writeNodeFile(*models.group->getChild(0)->asGroup()->getChild(0), globe.folder / "group.osgb"));
-    installBins(*globe.root, declaredHorizon());
-    update(*globe.root);
-    const osg::ref_ptr<osg::Node> file = readBelow(*globe.tile);
-    putBelow(*globe.tile, file);
-    file->asGroup()->addChild(models.group);
-    const CullView view = downTo(20, 100.0);
-    for (int i = 0; i < 3; ++i) {
-        (void)globe.draws(*globe.tile, view);
-        update(*globe.root);
-    }
-    const unsigned int before = models.model->asked;
-    (void)globe.draws(*globe.tile, view);
-    EXPECT_EQ(models.model->asked, before);
+    GlobeWithModels globe;
+    const TemporaryFolder folder;
+    osg::PagedLOD& tile = *globe.tiles[19];
+    tile.setDatabasePath(std::string(folder / ""));
+    tile.setFileName(1, "models.osgb");
+    tile.setRange(0, 0.0f, 1e10f);
+    tile.setRange(1, 0.0f, 1e9f);
+    ASSERT_TRUE(osgDB::writeNodeFile(*new osg::Group, folder / "models.osgb"));
+    globe.install();
+    const osg::ref_ptr<osg::Node> file = readBelow(tile);
+    file->asGroup()->addChild(globe.models.group);
+    putBelow(tile, file);
+    globe.settle();
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
 }
 
 struct TileComes {
