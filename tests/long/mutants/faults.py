@@ -739,7 +739,7 @@ FAULTS = [
           "hasSkirts ? core::MeshCover::kSkirtRoom : kPlaceRounding", "hasSkirts ? kPlaceRounding : kPlaceRounding",
           NODE, "TileFamily.*"),
     Fault("evidence: a file's level may leave a gap", "src/kit/cull/SelectionEvidence.cpp",
-          "if (!_isAdded && hasGapBelow(tile)) doubt();", "(void)tile;", NODE, "Evidence.*"),
+          "if (!_isAdded && hasGapBelow(tile)) doubt();", "(void)tile;", NODE, "Newcomers.*"),
     Fault("evidence: the level of a tile in view may leave a gap", "src/kit/cull/SelectionWalk.cpp",
           "doubtLevelsOf(tile);", "", NODE, "Evidence.*"),
     Fault("evidence: a region reaches as far as its tiles, with gaps", "src/kit/install/Coverage.cpp",
