@@ -103,7 +103,7 @@ TEST(Models, InAFileThatAddsToATileAreLeftToOsg) {
     tile.setFileName(1, "models.osgb");
     tile.setRange(0, 0.0f, 1e10f);
     tile.setRange(1, 0.0f, 1e9f);
-    ASSERT_TRUE(osgDB::writeNodeFile(*new osg::Group, folder / "models.osgb"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*osg::ref_ptr(new osg::Group), folder / "models.osgb"));
     globe.install();
     const osg::ref_ptr<osg::Node> file = readBelow(tile);
     file->asGroup()->addChild(globe.models.group);
