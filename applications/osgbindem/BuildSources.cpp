@@ -116,7 +116,7 @@ struct Raster {
     double reachDeg = 0.0;
     double resolutionDeg = 0.0;
     RectDeg area;
-    /// The description of the raster, without its reach.
+    /// Describes the raster, but not the area that it covers.
     std::string text;
 
     bool operator==(const Raster& other) const { return text == other.text; }

@@ -155,7 +155,7 @@ std::array<RectDeg, 3> areasOf(const RasterGrid& grid) {
 
 using Intervals = std::vector<std::pair<double, double>>;
 
-/// What is left of intervals where another one is taken away.
+/// The parts of intervals that are outside of another one.
 Intervals without(const Intervals& intervals, const std::pair<double, double>& other) {
     Intervals left;
     for (const auto& [from, to] : intervals) {
@@ -205,7 +205,7 @@ void BlendBand::addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& 
     for (const auto& [border, outward] : {std::pair(first, -1.0), {last, 1.0}}) {
         if (areParallels && border * outward >= 90.0 - pixel) continue;
         Intervals open{along(grid.extent())};
-        // Less where others go on beyond the border.
+        // Where another raster continues beyond the border, it is not open.
         for (const RasterGrid& other : all) {
             const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
             const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());

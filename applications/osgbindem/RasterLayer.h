@@ -42,13 +42,13 @@ public:
 
 private:
     [[nodiscard]] double shareWithin(const PositionDeg& position) const noexcept;
-    /// What of the southern and northern border is open, or else of the western and eastern one.
+    /// Adds the open parts of the southern and the northern border, or of the western and the eastern one.
     void addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& all, bool areParallels);
 
     double _width = 0.0;
     double _metresPerDegree = 0.0;
     double _west = 0.0;
-    /// Parts of the border: rectangles without width or without height. Longitudes are those of the raster.
+    /// Parts of the border, as rectangles of no width or no height. Longitudes are those of the raster.
     std::vector<RectDeg> _edges;
 };
 

@@ -23,15 +23,15 @@ namespace osgbindem {
 /// The lowest and the highest of a tile's own posts.
 [[nodiscard]] osgAnalyticBin::core::Interval heightsOf(const osgAnalyticBin::TerrainGrid& grid);
 
-/// Places the grid's origin in its middle, between its lowest and its highest post. Requires: it has its heights.
+/// Sets the grid's origin to its middle, halfway between its lowest and its highest post. Requires: it has heights.
 void placeOrigin(osgAnalyticBin::TerrainGrid& grid, const TileLayout& layout, int level);
 
-/// The root node of a globe, without tiles: lit, with the vertices' own colours. `wkt`: its reference system.
+/// Makes the root node of a globe, without tiles. Lights take the colours of the vertices. `wkt`: the reference system.
 [[nodiscard]] osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const osgAnalyticBin::core::Ellipsoid& ellipsoid,
                                                                const std::string& wkt);
 
-/// Declares below what nothing is drawn: a globe is whole, so that what lies behind it is hidden. Requires: the root
-/// has the tiles with their bins.
+/// Declares the altitude below which nothing is drawn, so that the globe hides what is behind it. Requires: the tiles
+/// below the root have stored bins.
 void declareHorizon(osg::Group& root);
 
 /// Puts the geometry at its place on the globe.

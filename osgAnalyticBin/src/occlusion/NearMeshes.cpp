@@ -20,7 +20,7 @@ std::shared_ptr<const core::EcefMesh> NearMeshes::meshOf(const AnalyticBinCullCa
     if (isSame && ++known->uses < kMostUses) return known->mesh;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    // meshes that were read in one view are read again in different ones
+    // counts begin at different numbers, so that meshes read in one view are not all read again in one view
     const auto early = static_cast<int>(known - _known.data()) * kMostUses / static_cast<int>(kMostTiles);
     *known = {nullptr, nullptr, tile.getLocalToEcef(), early, nullptr};
     // the frame of a transform that is culled itself is that of what is below it

@@ -53,7 +53,7 @@ std::string expiryOf(const osg::Node& node) {
     return times;
 }
 
-// Those with which files are read below a node, and the callback that reads them.
+// The options with which a node's files are read, and the callback that reads them.
 std::string readingOf(const osg::Node& node) {
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
     const auto* const options = paged ? dynamic_cast<const osgDB::Options*>(paged->getDatabaseOptions()) : nullptr;

@@ -138,9 +138,9 @@ public:
         return delivery;
     }
 
-    /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit enters tiles by itself. Returns:
-    /// nullopt where it gets more than a derived visitor, a drawable as often but in another way, or the same with
-    /// other near and far planes.
+    /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit draws tiles directly. Returns:
+    /// nullopt if it gets a drawable more often than the derived visitor that `recorded` is of, if it gets one as often
+    /// but in another way, or if it gets the same drawables with other near and far planes.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
@@ -351,13 +351,14 @@ private:
         return found ? std::optional(failed(*found, frame)) : std::nullopt;
     }
 
-    // OSG's own visitor may get fewer drawables than a derived one, if nothing that is seen is missing. For a derived
-    // one OSG tests again, below transforms, what spheres of groups have decided, and bins across more than two planes
-    // are not tested against edges. So it finds more tiles in view, and may find a hole among them, or a larger near
-    // plane.
+    // OSG's own visitor may get fewer drawables than a derived one, as long as nothing visible is missing. For a
+    // derived visitor OSG tests again, below transforms, what spheres of groups have decided, and bins that cross more
+    // than two planes are not tested against edges. It therefore keeps more tiles, among which there may be a hole, or
+    // one that moves the near plane away.
     [[nodiscard]] std::optional<Failure> compareVisitors(const Delivery& derived, const ViewSpec& view, int frame) {
         const auto own = _with.deliverToOsg(view, *_stamp, derived);
-        if (!own) return Failure{frame, "OSG's own visitor gets something otherwise than a derived one", ""};
+        if (!own)
+            return Failure{frame, "OSG's own visitor gets more than a derived one, or gets it in another way", ""};
         auto failure = compare(derived, *own, view, frame);
         if (failure) failure->signature += " to OSG's own visitor";
         return failure;

@@ -151,7 +151,7 @@ std::string wrongWith(const NamedScene& scene, bool describes, Painter* painter)
     const std::string found = toText(Expectation{spheres, bins});
     if (describes) std::printf("%s%s\n", toText(scene.description).c_str(), found.c_str());
     if (failure) return "frame " + std::to_string(failure->frame) + ": " + failure->signature + ": " + failure->text;
-    // pictures are of scenes that are a little different
+    // scenes are changed a little for pictures, so the counts may differ
     if (painter || (scene.expected && scene.expected->holdsFor(spheres, bins))) return {};
     return "it delivers: " + found;
 }

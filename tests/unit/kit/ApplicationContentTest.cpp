@@ -285,7 +285,7 @@ TEST_P(NeverCulled, IsALightSource) {
     EXPECT_TRUE(shines(globe, *source->getLight()));
 }
 
-// The picture that it draws, into a texture for instance, is not that of the tile.
+// It draws a picture of its own, into a texture for instance, whether the tile is in view or not.
 TEST_P(NeverCulled, IsACamera) {
     FiledGlobe globe;
     const auto draws = [&] {

@@ -140,7 +140,7 @@ TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {
     EXPECT_NEAR(highOfRoot(), 2000.0, 1.0);
 }
 
-// As an index that was made with osgbinconv, and forgotten.
+// A user has made that one with osgbinconv, and has not made it again since the database changed.
 TEST_F(AutoIndex, IsUsedTheNextTimeWhereOneBesideTheDatabaseIsOutOfDate) {
     open();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));

@@ -251,7 +251,7 @@ TYPED_TEST(InGroups, TilesAreMissedWithTheGroup) {
     }
 }
 
-// An application may do so with all nodes.
+// An application may compute the bounds of all nodes by callbacks of its own.
 TYPED_TEST(InGroups, ContentIsNoticedWhereTheBoundsOfAllNodesAreComputed) {
     for (const bool isFromTheRoot : {false, true}) {
         MeshGlobe globe;

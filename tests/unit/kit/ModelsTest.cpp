@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// An application's models beside the tiles and within their files: what the kit does not look at again in every frame,
-// and when it does. Oracle: nodes that count how often they are asked.
+// An application's models beside the tiles and in their files: when the kit looks at them in a frame, and when it
+// leaves them to OSG. Oracle: nodes that count how often they are asked.
 
 #include "ApplicationGlobe.h"
 #include "DatabaseFixture.h"
@@ -19,7 +19,7 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-// A group that a walk through the scene asks whether it is a transform.
+// Counts how often a walk through the scene asks whether it is a transform.
 class Model : public osg::Group {
 public:
     osg::Transform* asTransform() override { return ++asked, nullptr; }
@@ -43,7 +43,7 @@ struct GlobeWithModels : MeshGlobe {
         update(*root);
         EXPECT_FALSE(drawsAntipode());
     }
-    // After changes that are noticed in a cull and done by the next update.
+    // Lets a cull traversal notice what has changed, and the next update act on it.
     void settle() {
         for (int i = 0; i < 2; ++i) {
             (void)drawsAntipode();
@@ -70,7 +70,7 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
 }
 
-// As below an osgTerrain::Terrain, the tiles are not tested together there.
+// Tiles below a transform are not tested together; nor are those below an osgTerrain::Terrain.
 TEST(Models, BesideTilesBelowATransformAreLeftToOsg) {
     GlobeWithModels globe;
     const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Models, TilesAmongModels,
                                                        model.addChild(tile);
                                                        installBins(*globe.root);
                                                    }},
-                                         TileComes{"BelowASwitchOfTheApplication",
+                                         TileComes{"BelowAClassOfTheApplications",
                                                    [](GlobeWithModels& globe, osg::Group& model) {
                                                        const osg::ref_ptr<osg::Group> tile = smallTile();
                                                        EXPECT_EQ(addTile(*globe.root, *tile), 1u);
@@ -205,7 +205,7 @@ TEST(Models, ThatStandStillAreNotReadAgainWhereOneMoves) {
     EXPECT_GT(moving->visits, 0u);
 }
 
-// Nothing hides what is drawn regardless of depth. Its bound is that of the model which it joins.
+// The new part ignores depth, so nothing may hide it. Its bound is that of the model to which it is added.
 TEST(Models, ThatGetANewPartOfTheSameBoundAreReadAgain) {
     LevelWithModels globe(15, new osg::Group, new osg::Group);
     EXPECT_FALSE(globe.draws(*globe.still, MeshGlobe::fromAbove()));

@@ -225,7 +225,7 @@ osg::Matrixd alongX(double eye) {
     return osg::Matrixd::lookAt(osg::Vec3d(eye, 0, 0), osg::Vec3d(eye + 1.0, 0, 0), osg::Vec3d(0, 0, 1));
 }
 
-// Then OSG's own test of depth, LESS, draws what is farthest.
+// With OSG's default depth test, LESS, the farthest surface is drawn then.
 TEST(Projections, ReversedDepthHidesNothing) {
     CameraGlobe globe(test::horizonOptions());
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);

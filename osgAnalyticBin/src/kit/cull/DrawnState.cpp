@@ -210,8 +210,8 @@ bool hasAlpha(const osg::Image& image) {
     return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
 }
 
-// As the technique decides, by the first image. Where the tile leaves it to the Terrain, which it knows only once it
-// has been traversed, the database asks that in each view.
+// As the technique decides it, by the first image. A tile that inherits the policy knows its Terrain only after its
+// first traversal: the database asks the Terrain in each view.
 bool isBlended(const osgTerrain::TerrainTile& tile) {
     using Tile = osgTerrain::TerrainTile;
     const Tile::BlendingPolicy policy = tile.getBlendingPolicy();

@@ -25,15 +25,15 @@ namespace osgAnalyticBin {
 namespace {
 
 const TileFamily* familyOf(const osg::Node& node) {
-    return findCallback<TileFamily>(const_cast<osg::Node&>(node).getCullCallback());
+    return findCallback<const TileFamily>(node.getCullCallback());
 }
 
 // Whether a node enters all of its children and does nothing else.
 bool isPlain(const osg::Node& node) {
-    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
+    return isOneOf<osg::Group, osg::CoordinateSystemNode>(node);
 }
 
-// Whether there are tiles with bins in a subgraph, where its groups have got their families.
+// Whether a subgraph holds tiles that are missed when they are taken away. Requires: its groups have their families.
 bool holdsTiles(const osg::Node& node) {
     if (installedTileOf(node) || familyOf(node)) return true;
     const osg::Group* const group = TileFamily::isPossibleOn(node) ? nullptr : node.asGroup();
@@ -43,7 +43,7 @@ bool holdsTiles(const osg::Node& node) {
     return false;
 }
 
-// The first tile of a subgraph, with a family above it or without. Returns: nullptr where there is none.
+// The first tile of a subgraph, whether it is missed or not. Returns: nullptr where there is none.
 const AnalyticBinCullCallback* firstTile(const osg::Node& node) {
     const auto* tile = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
     const osg::Group* const group = node.asGroup();
@@ -70,10 +70,9 @@ TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     const unsigned int children = isPlain(group) ? group.getNumChildren() : 0;
     for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
-    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
-        _hasOthers = addOther(*group.getChild(i), i, old) || _hasOthers;
-    findWithoutTiles(group, old);
-    if (_hasOthers || !hasSameChildren(group)) _block->columnUnion().addDoubts(1);
+    addOthers(group, old);
+    const bool areAllAbove = std::find(_nodes.begin(), _nodes.end(), nullptr) == _nodes.end();
+    if (_hasOthers || !areAllAbove) _block->columnUnion().addDoubts(1);
 }
 
 bool TileFamily::place(osg::Node& node, bool isAdded) {
@@ -125,7 +124,7 @@ void TileFamily::renew(osg::Node& node) {
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
-    const TileFamily* const below = findCallback<TileFamily>(child.getCullCallback());
+    const TileFamily* const below = familyOf(child);
     const bool isBelow = below && !_nodes[slot] && below->_group == &child && below->_ellipsoid &&
                          child.getNumParents() == 1 && isExactly<osg::Group>(child) &&
                          !(_ellipsoid && *_ellipsoid != *below->_ellipsoid);
@@ -136,40 +135,32 @@ bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
     return true;
 }
 
-// Its tiles are tested by their own callbacks. A family that is made anew looks only below children that the old one
-// knows: among models that the application adds there may be many nodes, and tiles that it adds cover nothing.
-bool TileFamily::addOther(osg::Node& child, std::size_t slot, const TileFamily* old) {
-    const auto isKnown = [&](const TileFamily& family) {
-        return std::find(family._nodes.begin(), family._nodes.end(), &child) != family._nodes.end();
-    };
-    if (_nodes[slot] || (old && !isKnown(*old)) || !holdsTiles(child)) return false;
-    _nodes[slot] = &child;
-    return true;
-}
-
-// A family with both kinds of children keeps walks away from models, even where it has no tiles to test.
-void TileFamily::findWithoutTiles(const osg::Group& group, const TileFamily* old) {
-    std::unordered_set<const osg::Node*> known;
-    if (old) known.insert(old->_withoutTiles.begin(), old->_withoutTiles.end());
-    _withoutTiles.resize(_nodes.size());
-    bool hasAny = false;
-    for (unsigned int i = 0; i < _nodes.size(); ++i) {
-        const osg::Node* const child = group.getChild(i);
-        if (_nodes[i] || (known.count(child) == 0 && firstTile(*child))) continue;
-        _withoutTiles[i] = child;
-        hasAny = true;
+// Children that are neither tiles nor groups with families. A child that came after bins were installed is not missed,
+// whatever it holds: tiles that the application adds cover nothing.
+void TileFamily::addOthers(osg::Group& group, const TileFamily* old) {
+    std::unordered_set<const osg::Node*> above, without;
+    if (old) {
+        above.insert(old->_nodes.begin(), old->_nodes.end());
+        without.insert(old->_withoutTiles.begin(), old->_withoutTiles.end());
     }
-    const bool mayCull = hasAny && isPlain(group);
-    for (std::size_t i = 0; mayCull && !_ellipsoid && i < _nodes.size(); ++i) {
+    _withoutTiles.resize(_nodes.size());
+    bool hasModels = false;
+    for (unsigned int i = 0; i < _nodes.size(); ++i) {
+        osg::Node* const child = group.getChild(i);
+        if (_nodes[i]) continue;
+        if ((!old || above.count(child) != 0) && holdsTiles(*child)) {
+            _nodes[i] = child;
+            _hasOthers = true;
+        } else if (without.count(child) != 0 || !firstTile(*child)) {
+            _withoutTiles[i] = child;
+            hasModels = true;
+        }
+    }
+    // with models among the children it selects even without tiles to test, so that walks skip the models
+    for (std::size_t i = 0; hasModels && isPlain(group) && !_ellipsoid && i < _nodes.size(); ++i) {
         const AnalyticBinCullCallback* const tile = _nodes[i] ? firstTile(*_nodes[i]) : nullptr;
         if (tile) _ellipsoid = tile->ellipsoid();
     }
-}
-
-bool TileFamily::hasSameChildren(const osg::Group& group) const {
-    bool isSame = group.getNumChildren() == _nodes.size();
-    for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i) isSame = group.getChild(i) == _nodes[i];
-    return isSame;
 }
 
 bool TileFamily::hasChanged(const osg::Group& group) const {
@@ -200,7 +191,7 @@ bool TileFamily::holds(const osg::Node& group, unsigned int child) {
 
 void TileFamily::look(const osg::Node& node) {
     const TileFamily* const family = familyOf(node);
-    if (!family || family->_group != &node || family->hasSameChildren(*node.asGroup())) return;
+    if (!family || family->_group != &node || !family->hasChanged(*node.asGroup())) return;
     if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
 }
 
@@ -212,7 +203,7 @@ const ColumnUnion* TileFamily::columnUnion(const osg::Group& group) const {
 }
 
 const ColumnUnion* TileFamily::columnUnionOf(osg::Group& group) {
-    const TileFamily* const family = findCallback<TileFamily>(group.getCullCallback());
+    const TileFamily* const family = familyOf(group);
     return family ? family->columnUnion(group) : nullptr;
 }
 

@@ -40,7 +40,7 @@ public:
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new TileFamily(*this, copyop); }
 
-    /// Whether the node is a group that enters all of its children.
+    /// Whether a node is a group that always enters all of its children.
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
@@ -106,7 +106,7 @@ public:
     /// Whether a group has a family that has to notice changes among the children. Others are only above groups,
     /// perhaps deep in each other, where watches would need much stack.
     [[nodiscard]] static bool needsWatch(const osg::Node& group);
-    /// Whether the family of a group, if it has one, knows a child for a tile or for a node above tiles.
+    /// Whether a group has a family that holds this child, as a tile or as a node above tiles.
     [[nodiscard]] static bool holds(const osg::Node& group, unsigned int child);
 
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
@@ -123,8 +123,9 @@ public:
     /// Whether children were added or taken away since the family was made.
     [[nodiscard]] bool hasChanged(const osg::Group& group) const;
 
-    /// Whether nothing below a child is a tile, so that walks need not go there: models, say. In doubt false. A tile
-    /// that is added below without a word may be missed: then it hides nothing, and terrain does not hide it.
+    /// Whether a child is no tile and has none below it, as models have none: walks skip it. False in doubt. A tile
+    /// that the application puts there without addTile() or installBins() is skipped, too: it hides nothing, and
+    /// terrain does not hide it.
     [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child) const {
         return slot < _withoutTiles.size() && _withoutTiles[slot] == &child;
     }
@@ -143,10 +144,7 @@ private:
     TileFamily(osg::Group& group, const TileFamily* old);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
-    [[nodiscard]] bool addOther(osg::Node& child, std::size_t slot, const TileFamily* old);
-    void findWithoutTiles(const osg::Group& group, const TileFamily* old);
-    // Whether all are tiles, or above tiles.
-    [[nodiscard]] bool hasSameChildren(const osg::Group& group) const;
+    void addOthers(osg::Group& group, const TileFamily* old);
     // Of these tiles, those that may be hidden now.
     [[nodiscard]] std::uint64_t hideable(unsigned int first, std::uint64_t tiles) const;
     void findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
@@ -159,7 +157,7 @@ private:
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // one for each child
-    // references, so that no address is used again; null: no tile is there or below
+    // null: the child is no tile and has none below it; references, so that no address is used again
     std::vector<osg::ref_ptr<osg::Node>> _nodes;
     std::vector<FamilyTile> _tiles;
     std::vector<const osg::Node*> _withoutTiles;  // null: there may be tiles

@@ -53,7 +53,7 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    // Sets `isAdded` where there are tiles in the file, and no tile pages it.
+    // Sets `isAdded` if the file holds tiles and the node that pages it is no tile.
     [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options, bool& isAdded);
     struct Expected {
         TileFrame frame;

@@ -83,8 +83,9 @@ public:
     void setRemoved();
 
     /// Records content that is not merged into the scene yet, with bins by the options and the index of `generation`.
-    /// `isAdded`: with tiles where there were none, because the application attaches it itself, or no tile pages it.
-    /// When that is done, the next update has the groups that it was attached to test it with its siblings.
+    /// `isAdded`: it brings tiles to a place where none were expected, because the application attaches it, or the
+    /// PagedLOD that pages it is no tile. The next update after it is attached adds the tiles to the families of the
+    /// groups there.
     void noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded);
 
     /// Null: there is none, or none yet.
@@ -98,8 +99,7 @@ public:
     /// because the application may change the Terrain at the same time.
     [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
 
-    /// Whether the Terrain, if any, has all of its tiles blended that do not say otherwise. Not for pager threads
-    /// either.
+    /// Whether the Terrain, if any, has tiles blended that inherit its policy. Not for pager threads, as shape().
     [[nodiscard]] bool isTerrainBlended() const;
 
     /// The shape at the last update traversal, which tiles are fitted to. For any thread.

@@ -91,7 +91,7 @@ std::uint64_t frameOf(const osg::Node& node) {
     return hash;
 }
 
-// What the technique of an osgTerrain tile blends by.
+// Adds what decides whether the technique blends an osgTerrain tile.
 void mixBlending(std::uint64_t& hash, const osgTerrain::TerrainTile& tile) {
     mix(hash, static_cast<std::uint64_t>(tile.getBlendingPolicy()));
     for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
@@ -227,7 +227,7 @@ private:
         return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
     }
 
-    // Found once for tiles in the same frame.
+    // Computed once for all tiles in the same frame.
     const AnalyticBin& aboutOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
         if (!_about || localToEcef != _aboutToEcef) _about = binAbout(movedSphere(_sphere, localToEcef), toCore(model));
         _aboutToEcef = localToEcef;
@@ -317,7 +317,7 @@ struct OpenNode : public osg::Node {
     [[nodiscard]] static bool hasBound(const osg::Node& node) { return node.*(&OpenNode::_boundingSphereComputed); }
 };
 
-// Whether something has changed since the node's bound was computed, as far as OSG is told.
+// Whether OSG has to compute the node's bound anew, because it was told of a change.
 bool isBoundDue(const osg::Node& node) {
     return !OpenNode::hasBound(node);
 }
@@ -382,7 +382,7 @@ osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
 
 bool ContentWatch::hasNewContent(const osg::Node& node) {
     const ContentWatch* const watch = watchOf(node);
-    // nobody knows what was added where the application has replaced the watch
+    // where the application has replaced the watch, content may have been added unnoticed
     if (!watch && culledNodeOf(node)) return true;
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
@@ -427,7 +427,6 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
     return is;
 }
 
-// Its bound is the same as then, too.
 bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
     return i < _held.size() && _held[i].first == &child && _held[i].second == child.getBound();
 }
@@ -456,13 +455,13 @@ void ContentWatch::check(const osg::Node& node) const {
         const bool isUnchanged = isOwnFrame && !isBoundDue(child) && isHeld(i, child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
-        // it would look after what is below, if it had a watch
+        // the watch of the child would do this, if there were one
         if (!watchOf(child) && TileFamily::holds(node, i)) forEachPart(child, keepUnwatchedVisible);
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
         if (isWatched(child) && !drawsBesideChildren(child)) continue;
-        // a node whose bound nobody has asked for would not tell of changes
+        // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, true)) {
             ++fitted;

@@ -81,7 +81,8 @@ private:
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
     void check(const osg::Node& node) const;
-    // Whether the child was looked at before: it is in the bins of the tiles above, or they are about to be expanded.
+    // Whether the child was looked at before, with the bound that it has: it is in the bins of the tiles above, or they
+    // are about to be expanded.
     [[nodiscard]] bool isHeld(unsigned int i, const osg::Node& child) const;
     void noteHeld(unsigned int i, const osg::Node& child) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.

@@ -29,7 +29,7 @@ bool drawsBesideChildren(const osg::Node& node) {
     const bool isKnown =
         !group || node.asTransform() ||
         isOneOf<osg::Group, osg::Geode, osg::PagedLOD, osg::LOD, osg::Switch, osg::Sequence, osg::Billboard>(node);
-    // these tell their bounds themselves
+    // these classes compute bounds of their own
     if (isKnown || dynamic_cast<const osg::LOD*>(&node) || dynamic_cast<const osg::ProxyNode*>(&node) ||
         dynamic_cast<const osgTerrain::TerrainTile*>(&node))
         return false;

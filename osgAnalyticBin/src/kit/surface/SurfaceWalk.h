@@ -13,8 +13,8 @@ namespace osgAnalyticBin {
 /// the eye, have no fixed place on the globe.
 [[nodiscard]] bool hasFixedPlace(const osg::Transform& node);
 
-/// Whether a group, of a class that is not known, has a bound that does not end with its children: it may draw there,
-/// too, as osgVolume::VolumeTile does.
+/// Whether a group of an unknown class has another bound than that of its children: it may draw within it besides them,
+/// as osgVolume::VolumeTile does.
 [[nodiscard]] bool drawsBesideChildren(const osg::Node& node);
 
 /// Visits what one tile draws: terrain tiles, which are not traversed, and drawables, with the frame in which they

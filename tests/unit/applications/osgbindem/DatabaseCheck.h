@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Builds a database by a command line without -o, and loads it; of a raster, which is put before the options.
+/// Builds a database by a command line, to which -o is added, and loads it. With a raster: by the raster's file and
+/// these options.
 [[nodiscard]] LoadedDatabase databaseOf(std::vector<std::string> words);
 [[nodiscard]] LoadedDatabase databaseOf(const TestRaster& raster, std::vector<std::string> options = {});
 
