@@ -147,6 +147,21 @@ std::vector<Tile> readTiles(const std::vector<std::string>& folders, const osgDB
     return tiles;
 }
 
+// Each tile is taken off its entry meanwhile, as before its first frame.
+void install(osg::Group& terrain, const std::vector<Tile>& tiles) {
+    CullOptions culling;
+    culling.globe.emplace(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+    culling.ground = "BTGTerrainGroup";
+    for (const Tile& tile : tiles) tile.entry->removeChild(tile.content);
+    (void)installBins(terrain, culling);
+    std::size_t installed = 0;
+    const auto begin = Clock::now();
+    for (const Tile& tile : tiles) installed += addTile(terrain, *tile.content);
+    const double each = std::chrono::duration<double, std::micro>(Clock::now() - begin).count() / double(tiles.size());
+    for (const Tile& tile : tiles) tile.entry->addChild(tile.content, 0.0f, kTileRange);
+    std::fprintf(stderr, "%zu tiles, %zu bins, %.0f us each\n", tiles.size(), installed, each);
+}
+
 struct Measured {
     std::size_t drawn = 0;
     double microseconds = 0.0;
@@ -185,8 +200,7 @@ public:
             times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
             measured.drawn = result.drawn.size();
         }
-        std::sort(times.begin(), times.end());
-        measured.microseconds = times[times.size() / 4];
+        measured.microseconds = *std::min_element(times.begin(), times.end());
         return measured;
     }
 
@@ -251,24 +265,26 @@ int main(int argc, char** argv) {
         std::copy_if(kPoses.begin(), kPoses.end(), std::back_inserter(poses),
                      [&](const Pose& pose) { return pose.isIceland == isIceland; });
         std::vector<Measured> stock, again, bins;
+        const auto fly = [&](std::vector<Measured>& flown) {
+            std::vector<Measured> now;
+            for (const Pose& pose : poses) now.push_back(flight.at(pose));
+            for (std::size_t i = 0; i < flown.size(); ++i)
+                now[i].microseconds = std::min(now[i].microseconds, flown[i].microseconds);
+            flown = std::move(now);
+        };
         for (const Pose& pose : poses) (void)flight.at(pose);
-        for (const Pose& pose : poses) stock.push_back(flight.at(pose));
-        for (const Pose& pose : poses) again.push_back(flight.at(pose));
-        CullOptions culling;
-        culling.globe.emplace(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
-        culling.ground = "BTGTerrainGroup";
-        for (const Tile& tile : tiles) tile.entry->removeChild(tile.content);
-        (void)installBins(*terrain, culling);
-        std::size_t installed = 0;
-        const auto begin = Clock::now();
-        for (const Tile& tile : tiles) installed += addTile(*terrain, *tile.content);
-        const double each =
-            std::chrono::duration<double, std::micro>(Clock::now() - begin).count() / double(tiles.size());
-        for (const Tile& tile : tiles) tile.entry->addChild(tile.content, 0.0f, kTileRange);
-        std::fprintf(stderr, "%zu tiles, %zu bins, %.0f us each\n", tiles.size(), installed, each);
-        for (const Pose& pose : poses) bins.push_back(flight.at(pose));
+        fly(stock);
+        again = stock;
+        // other work on the machine comes and goes: each has several turns
+        constexpr int kTurns = 3;
+        for (int turn = 0; turn < kTurns; ++turn) {
+            fly(again);
+            install(*terrain, tiles);
+            fly(bins);
+            removeBins(*terrain);
+        }
         for (std::size_t i = 0; i < poses.size(); ++i) {
-            const double without = std::min(stock[i].microseconds, again[i].microseconds);
+            const double without = again[i].microseconds;
             const std::size_t noise = differing(stock[i].picture, again[i].picture);
             const std::size_t wrong = differing(stock[i].picture, bins[i].picture);
             std::printf("%s | %zu | %zu | %.1f | %.1f | %zu | %zu\n", poses[i].name, stock[i].drawn, bins[i].drawn,

@@ -321,6 +321,8 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     };
     const bool culled =
         isOutside(cullStack, test) || isSmallTile(cullStack.getCurrentCullingSet(), prepared().sphere, node);
+    const DatabaseView* const database = traversal.databaseView();
+    if (database && database->gain) database->gain->count(!culled);
     if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
         traversal.statistics().count(culled ? core::Side::Outside : side, nv.getTraversalNumber(), reason);
     return culled;

@@ -5,6 +5,7 @@
 
 #include "../Scoped.h"
 #include "../tile/TerrainHider.h"
+#include "DatabaseRest.h"
 #include "DrawnState.h"
 #include "GroundBelow.h"
 #include "HidingView.h"
@@ -55,6 +56,7 @@ struct DatabaseView {
     bool expectsHole = false;                     // as in the last view
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
     const core::HorizonEye* fileEye = nullptr;    // tiles behind its horizon ask for no files; null: all tiles ask
+    Gain* gain = nullptr;                         // null: not counted in this view
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
@@ -112,6 +114,7 @@ public:
         unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;          ///< how many of them are left
         osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
+        DatabaseRest left;                 ///< views that are left to OSG
     };
     [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
     GroundBelow ground;  ///< last found below the eye

@@ -99,6 +99,7 @@ public:
         : _selection(*view.selection),
           _visitor(view.visitor),
           _traversal(view.traversal),
+          _gain(view.gain),
           _cullVisitor(isExactly<osgUtil::CullVisitor>(_visitor) ? _visitor.asCullVisitor() : nullptr),
           _cullStack(view.cullStack),
           _canDraw(_cullVisitor && FamilyTile::canDraw(*_cullVisitor)) {}
@@ -120,6 +121,10 @@ public:
         }
         setUndecided(frustum(), _limit);
         if (_visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
+        if (_gain) {
+            _gain->saved += counts.occluded;
+            _gain->direct += _direct;
+        }
         counts.frame = static_cast<unsigned int>(_visitor.getTraversalNumber());
         _traversal.statistics().add(counts);
     }
@@ -151,7 +156,7 @@ private:
         if (_isEntered && isMasked(kept)) return;
         if (kept.way == Way::Mesh) {
             places.setState(kept.place);
-            if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return;
+            if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return static_cast<void>(++_direct);
         }
         _selection.hold();
         _isEntered = true;
@@ -197,11 +202,13 @@ private:
     TileSelection& _selection;
     osg::NodeVisitor& _visitor;
     CullTraversal& _traversal;
+    Gain* const _gain;                         // null: not counted
     osgUtil::CullVisitor* const _cullVisitor;  // null: a visitor of another class
     osg::CullStack& _cullStack;
     const bool _canDraw;
     core::PlaneMask _limit = 0;
-    bool _isEntered = false;  // by OSG, where the application may change what comes later
+    unsigned int _direct = 0;  // drawn
+    bool _isEntered = false;   // by OSG, where the application may change what comes later
     Number _lastPlace = TileSelection::kNone;
     bool _isLastMasked = false;
 };

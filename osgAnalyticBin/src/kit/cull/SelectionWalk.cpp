@@ -162,6 +162,7 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     segment.counts.straddling += countBits(verdicts.members & ~culled & ~inside);
     segment.counts.hidden += countBits(verdicts.members & verdicts.hidden);
     segment.counts.beyondEdge += countBits(verdicts.members & verdicts.separated);
+    if (_view.gain) countGain(family, first, verdicts.members, culled);
     segment.hides = segment.hides || (verdicts.members & verdicts.hidden) != 0;
     if (first >= family.size()) return 0;
     forEachBit(verdicts.members & ~culled & family.block().partFrom(first).withSpheres, [&](unsigned int number) {
@@ -170,6 +171,21 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
             culled |= std::uint64_t{1} << number;
     });
     return verdicts.members & ~culled;
+}
+
+// What bins gain over OSG's tests of spheres.
+void SelectionWalk::countGain(const TileFamily& family, unsigned int first, std::uint64_t members,
+                              std::uint64_t culled) {
+    Gain& gain = *_view.gain;
+    forEachBit(members, [&](unsigned int number) {
+        const osg::Node& node = family.node(first + number);
+        core::PlaneMask undecided = _undecided;
+        const bool isInView = !node.isCullingActive() ||
+                              !isSphereCulled(_view.cullStack.getCurrentCullingSet(), undecided, node.getBound());
+        const bool isKept = !hasBit(culled, number);
+        if (isKept || isInView) gain.count(isKept);
+        if (isKept && !isInView) ++gain.mended;
+    });
 }
 
 // Which of them are searched for evidence. Tiles out of view that are not about the eye, and whose column is the bin or

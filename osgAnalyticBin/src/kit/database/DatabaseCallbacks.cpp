@@ -308,6 +308,13 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     return !hasHorizon && !findsOccluded ? Horizon() : note({eye, fileEye, isSelected, {}, hider});
 }
 
+// Whether a visitor may leave the database to OSG where bins gain nothing: others watch what becomes of tiles, or ask
+// what the database hides. OSG's spheres of osgTerrain tiles follow neither the vertical scale nor another technique.
+bool mayRest(osg::NodeVisitor& visitor, const CullTraversal& traversal, const TerrainShape& shape) {
+    return visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR && !traversal.statistics().isTileByTile() &&
+           !traversal.hiding.isInUse(visitor) && shape.verticalScale == 1.0 && shape.techniqueMargin == 0.0;
+}
+
 // Culled or kept siblings before the database leave a part of the planes behind.
 void beginWithAllPlanes(osg::CullStack& cullStack) {
     osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
@@ -363,7 +370,11 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 }
 
 void DatabaseCullCallback::leaveToOsg(osg::Node& node, osg::NodeVisitor& nv) {
-    const CullTraversal::DatabaseScope scope(nv, CullTraversal::of(nv), nullptr);
+    CullTraversal& traversal = CullTraversal::of(nv);
+    BinCounts none;
+    none.frame = static_cast<unsigned int>(nv.getTraversalNumber());
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) traversal.statistics().add(none);
+    const CullTraversal::DatabaseScope scope(nv, traversal, nullptr);
     traverse(&node, &nv);
 }
 
@@ -375,9 +386,13 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
         _database->requestRefit();
         return leaveToOsg(node, nv);
     }
-    beginWithAllPlanes(cullStack);
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();
+    const TerrainShape shape = _database->shape(options);
+    const DatabaseRest::Turn turn =
+        mayRest(nv, traversal, shape) ? traversal.lastView(*_database).left.next() : DatabaseRest::Turn::Bins;
+    if (turn == DatabaseRest::Turn::Osg) return leaveToOsg(node, nv);
+    beginWithAllPlanes(cullStack);
     DatabaseView view{node,
                       nv,
                       traversal,
@@ -387,11 +402,13 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       traversal.planes(cullStack),
                       _database.get(),
                       toCore(*_database->ellipsoid()),
-                      _database->shape(options),
+                      shape,
                       &traversal.selection(),
                       &traversal.selection(),
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
+    Gain gain;
+    if (turn == DatabaseRest::Turn::BinsCounted) view.gain = &gain;
     const auto region = _database->region();
     if (region) view.region = &*region;
     const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(view, *_database, options);
@@ -405,6 +422,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
         traverse(&node, &nv);
     }
     view.selection->clear();
+    if (view.gain) traversal.lastView(*_database).left.note(gain);
 }
 
 void bringUpToDate(osg::Node& node, Database& database) {
