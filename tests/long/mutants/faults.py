@@ -49,6 +49,8 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
+    Fault("quads are divided as OSG divides them", "src/kit/surface/SurfaceReading.cpp",
+          "localToEcef(), mesh, true)", "localToEcef(), mesh)", NODE, "TileSurface.HoldsQuads*"),
     Fault("billboards do not turn", "src/kit/surface/SurfaceReading.cpp",
           "std::optional(reach * (1.0 + kRoomOfTurning))", "std::optional(0.5 * reach)", NODE, "TileSurface.HoldsABillboard*"),
     Fault("billboards stand still", "src/kit/install/ContentWatch.cpp",

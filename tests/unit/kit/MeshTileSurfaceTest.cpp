@@ -245,6 +245,27 @@ TEST(TileSurface, HoldsTheBoundOfWhatItsVerticesDoNotTell) {
     }
 }
 
+// The ground sags deepest below the longer diagonal, which is the first one of a quad or the other one.
+TEST(TileSurface, HoldsQuadsWhicheverDiagonalDividesThem) {
+    const osg::Vec3d around[] = {ecefDeg(40.0, 10.0, 0.0), ecefDeg(37.0, 13.0, 0.0), ecefDeg(40.3, 10.3, 0.0),
+                                 ecefDeg(43.0, 7.0, 0.0)};
+    for (const GLenum mode : {GLenum{GL_QUADS}, GLenum{GL_QUAD_STRIP}}) {
+        for (std::size_t first = 0; first < 4; ++first) {
+            const auto corner = [&](std::size_t i) { return osg::Vec3(around[(first + i) % 4] - around[0]); };
+            const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+            for (const std::size_t i : {0U, 1U, 2U, 3U}) vertices->push_back(corner(i));
+            if (mode == GL_QUAD_STRIP) std::swap((*vertices)[2], (*vertices)[3]);
+            const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+            geometry->setVertexArray(vertices);
+            geometry->addPrimitiveSet(new osg::DrawArrays(mode, 0, 4));
+            const TileSurface surface = tileSurface(*geometry, *kModel, osg::Matrixd::translate(around[0]), 1.0);
+            const osg::Vec3d middle = (around[1] + around[3]) * 0.5;
+            const double outside = metresOutside(surface.bin, {{middle.x(), middle.y(), middle.z()}}, kEllipsoid);
+            EXPECT_LE(outside, surface.bin.margin()) << mode << ' ' << first;
+        }
+    }
+}
+
 osg::ref_ptr<osg::Billboard> randomBillboard(osg::Billboard::Mode mode, bool isPlain, Random& random) {
     const auto any = [&random](double size) {
         return osg::Vec3(

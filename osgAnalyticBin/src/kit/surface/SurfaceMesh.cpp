@@ -106,7 +106,21 @@ bool drawsAllIndices(const osg::PrimitiveSet& primitives) {
            primitives.getNumInstances() == 0;
 }
 
-bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
+// Adds the triangles on both sides of the other diagonal of each quad, from the first index on. OSG's are, by corners,
+// 0 1 2, 0 2 3 for quads and 0 1 3, 1 2 3 for strips of them.
+void addOtherDiagonals(bool isStrip, std::size_t first, std::vector<std::uint32_t>& triangles) {
+    const std::size_t end = triangles.size();
+    for (std::size_t i = first; i + 5 < end; i += 6) {
+        const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 4], d = triangles[i + 5];
+        if (isStrip)
+            triangles.insert(triangles.end(), {a, b, c, a, c, d});
+        else
+            triangles.insert(triangles.end(), {a, b, d, b, c, d});
+    }
+}
+
+bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, bool withBothDiagonals,
+                    std::vector<std::uint32_t>& triangles) {
     if (!drawsAllIndices(primitives) || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (mode > GL_POLYGON) return false;
@@ -115,6 +129,7 @@ bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, 
         return true;
     }
     const unsigned int count = primitives.getNumIndices();
+    const std::size_t first = triangles.size();
     osg::TriangleIndexFunctor<IndexSink> functor;
     functor.triangles = &triangles;
     // OSG reads past the indices of an incomplete last triangle
@@ -122,13 +137,16 @@ bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, 
     if (!isCutOff) primitives.accept(functor);
     for (unsigned int i = 2; isCutOff && i < count; i += 3)
         functor(primitives.index(i - 2), primitives.index(i - 1), primitives.index(i));
+    const bool isOfQuads = mode == GL_QUADS || mode == GL_QUAD_STRIP;
+    if (isOfQuads && withBothDiagonals) addOtherDiagonals(mode == GL_QUAD_STRIP, first, triangles);
     return true;
 }
 
-bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef, SurfaceMesh& mesh,
+                  bool withBothDiagonals) {
     const std::int64_t vertices = geometry.getVertexArray() ? geometry.getVertexArray()->getNumElements() : 0;
     for (const auto& primitives : geometry.getPrimitiveSetList())
-        if (primitives && !readPrimitives(*primitives, vertices, mesh.triangles)) return false;
+        if (primitives && !readPrimitives(*primitives, vertices, withBothDiagonals, mesh.triangles)) return false;
     if (mesh.triangles.empty()) return true;
     if (!geometry.getVertexArray() || !readVertices(*geometry.getVertexArray(), localToEcef, mesh)) return false;
     const auto* texCoords = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
@@ -143,10 +161,12 @@ bool isDrawnByItsVertices(const osg::Drawable& drawable) {
            !drawable.getDrawCallback();
 }
 
-bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh,
+              bool withBothDiagonals) {
     mesh.triangles.clear();
     mesh.texCoords = nullptr;
-    if (const osg::Geometry* geometry = drawable.asGeometry()) return readGeometry(*geometry, localToEcef, mesh);
+    if (const osg::Geometry* geometry = drawable.asGeometry())
+        return readGeometry(*geometry, localToEcef, mesh, withBothDiagonals);
     mesh.x.clear();
     mesh.y.clear();
     mesh.z.clear();

@@ -342,7 +342,7 @@ private:
     void visit(osg::Drawable& drawable) override {
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& mesh = *kept;
-        if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
+        if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
         if (!mesh.triangles.empty()) unite(meshSurface(mesh, localToEcef(), _ellipsoid));
         // after the vertices: OSG crashes on indices beyond them
         if (!isHeldByItsVertices(drawable)) visitUnknown(drawable);
