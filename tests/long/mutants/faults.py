@@ -311,7 +311,7 @@ FAULTS = [
     Fault("nothing waits for the ground", "src/kit/cull/SelectionDrawing.cpp",
           "if (kept.waits) withoutFiles.emplace(_visitor);", "", NODE, "AwaitedGround.*"),
     Fault("eyes below the ground have a horizon", "src/kit/cull/GroundBelow.cpp",
-          "if (!(glm::dot(hit - point, up) < 0.0)) return false;", "", NODE, "UndergroundEyes.*"),
+          "_hasTriangle && _highest < 0.0;", "_hasTriangle;", SCENES, f"{NAMED}/underground.scene"),
     Fault("saved scenes forget the skirt", "src/kit/cull/AnalyticBinCullCallbackText.cpp",
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
 

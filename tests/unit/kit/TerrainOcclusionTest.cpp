@@ -380,6 +380,21 @@ TEST(TerrainOcclusion, NeedsMeshesOfTriangles) {
     }
 }
 
+// OSG draws such arrays, and crashes where it looks for intersections with them.
+TEST(TerrainOcclusion, FindsTheGroundBelowTheEyeInMeshesOfDoubles) {
+    for (const double height : {0.0, 3000.0}) {
+        RidgeGlobe globe;
+        osg::Geometry& geometry = *drawableOf(*globe.row[0])->asGeometry();
+        const osg::Vec3d up = ecefDeg(0.1, 0.1, height) - ecefDeg(0.1, 0.1, 0.0);
+        const osg::ref_ptr<osg::Vec3dArray> doubles = new osg::Vec3dArray;
+        for (const osg::Vec3& vertex : static_cast<const osg::Vec3Array&>(*geometry.getVertexArray()))
+            doubles->push_back(osg::Vec3d(vertex) + up);
+        geometry.setVertexArray(doubles);
+        installBins(*globe.root, withOcclusion());
+        EXPECT_EQ(globe.drawsFarTile(), height > 0.0);
+    }
+}
+
 TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());

@@ -4,58 +4,82 @@
 #include "GroundBelow.h"
 
 #include "../GlmBridge.h"
-#include "../Inverse.h"
-#include "../tile/EachNode.h"
+#include "../PerThread.h"
+#include "../surface/SurfaceMesh.h"
+#include "../surface/SurfaceWalk.h"
 
 #include <glm/geometric.hpp>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osgTerrain/TerrainTile>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
+#include <glm/mat3x3.hpp>
+#include <osg/Drawable>
+#include <osgTerrain/TerrainTechnique>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgAnalyticBin {
 
 namespace {
 
-using Intersector = osgUtil::LineSegmentIntersector;
-
-// OSG's own takes all children of a Geode for drawables.
-class MeshIntersection : public osgUtil::IntersectionVisitor {
+// Searches the highest triangle of a mesh on the vertical through a point. OSG's intersectors read no doubles, and past
+// the end of an incomplete last triangle.
+class VerticalSearch final : public SurfaceWalk {
 public:
-    using osgUtil::IntersectionVisitor::apply;
-    using osgUtil::IntersectionVisitor::IntersectionVisitor;
-    void apply(osg::Geode& geode) override { apply(static_cast<osg::Group&>(geode)); }
-};
-
-// OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
-// tile.
-bool hasMesh(osg::Node& mesh) {
-    bool has = true;
-    forEachNode(mesh, [&has](osg::Node& node) {
-        const auto* const tile = dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-        has = has && (!tile || (tile->getTerrainTechnique() && tile->getDirtyMask() == 0));
-    });
-    return has;
-}
-
-// The corners of the triangle that was met, in ECEF; all zero where OSG does not say.
-std::array<glm::dvec3, 3> triangleOf(const Intersector::Intersection& hit, const osg::Matrixd& localToEcef) {
-    const osg::Geometry* const geometry = hit.drawable ? hit.drawable->asGeometry() : nullptr;
-    const auto* const vertices = geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
-    std::array<glm::dvec3, 3> triangle{};
-    if (!vertices || hit.indexList.size() != 3) return triangle;
-    osg::Matrixd toEcef = localToEcef;
-    if (hit.matrix) toEcef.preMult(*hit.matrix);
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (hit.indexList[i] >= vertices->size()) return {};
-        triangle[i] = toGlm(osg::Vec3d((*vertices)[hit.indexList[i]]) * toEcef);
+    // `bottom`: metres, less than 0, down to which triangles are looked for.
+    VerticalSearch(const osg::Matrixd& localToEcef, const glm::dvec3& point, const glm::dvec3& up, double bottom)
+        : SurfaceWalk(localToEcef), _point(point), _highest(bottom) {
+        const glm::dvec3 least = std::abs(up.z) < 0.5 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+        const glm::dvec3 east = glm::normalize(glm::cross(least, up));
+        _axes = {east, glm::cross(up, east), up};
     }
-    return triangle;
-}
+
+    // Whether there is one, and the point is above it.
+    [[nodiscard]] bool isBelow() const { return isKnown() && _hasTriangle && _highest < 0.0; }
+    // Its corners, in ECEF.
+    [[nodiscard]] const std::array<glm::dvec3, 3>& triangle() const { return _triangle; }
+
+private:
+    // OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
+    // tile.
+    void visit(osgTerrain::TerrainTile& tile) override {
+        osgTerrain::TerrainTechnique* const technique = tile.getTerrainTechnique();
+        if (!technique || tile.getDirtyMask() != 0) return giveUp();
+        technique->traverse(*this);
+    }
+
+    void visit(osg::Drawable& drawable) override {
+        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from mesh to mesh
+        SurfaceMesh& mesh = *kept;
+        if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
+        // from the point, along the axes
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            const glm::dvec3 at = (mesh.vertex(i) - _point) * _axes;
+            mesh.x[i] = at.x;
+            mesh.y[i] = at.y;
+            mesh.z[i] = at.z;
+        }
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+            add(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]), mesh.vertex(mesh.triangles[i + 2]));
+    }
+
+    void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+        const bool isMet = (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+        const double height = isMet ? (ab * c.z + bc * a.z + ca * b.z) / (ab + bc + ca) : 0.0;
+        // one on edge has no height
+        if (!isMet || !(height > _highest)) return;
+        _hasTriangle = true;
+        _highest = height;
+        for (const auto& [corner, i] : {std::pair(a, 0U), std::pair(b, 1U), std::pair(c, 2U)})
+            _triangle[i] = _point + _axes * corner;
+    }
+
+    const glm::dvec3 _point;
+    glm::dmat3 _axes;
+    double _highest;  // metres above the point
+    bool _hasTriangle = false;
+    std::array<glm::dvec3, 3> _triangle{};
+};
 
 }  // namespace
 
@@ -78,24 +102,12 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     const bool isSame = ground.isAsRead && _mesh.get() == &ground.mesh && _localToEcef == ground.localToEcef;
     if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;
-    const auto ecefToLocal = affineInverse(ground.localToEcef);
-    if (!ecefToLocal || !hasMesh(ground.mesh)) return false;
-
-    const double top = std::max(ground.high, eye.altitude) + 1.0;
-    const double bottom = std::min(ground.low, eye.altitude) - 1.0;
-    if (!std::isfinite(top) || !std::isfinite(bottom)) return false;
-    const auto at = [&](double altitude) {
-        return toOsg(ellipsoid.toEcef({eye.latitude, eye.longitude, altitude})) * *ecefToLocal;
-    };
-    const osg::ref_ptr<Intersector> intersector = new Intersector(at(top), at(bottom));
-    MeshIntersection visitor(intersector);
-    ground.mesh.accept(visitor);
-    if (!intersector->containsIntersections()) return false;
-    // the first is the highest
-    const Intersector::Intersection& highest = *intersector->getIntersections().begin();
-    const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * ground.localToEcef);
-    if (!(glm::dot(hit - point, up) < 0.0)) return false;
-    _triangle = triangleOf(highest, ground.localToEcef);
+    const double bottom = std::min(ground.low, eye.altitude) - 1.0 - eye.altitude;
+    if (!std::isfinite(bottom)) return false;
+    VerticalSearch search(ground.localToEcef, point, up, bottom);
+    ground.mesh.accept(search);
+    if (!search.isBelow()) return false;
+    _triangle = search.triangle();
     _mesh = &ground.mesh;
     _localToEcef = ground.localToEcef;
     _uses = 0;

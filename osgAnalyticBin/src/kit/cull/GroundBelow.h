@@ -18,8 +18,7 @@ namespace osgAnalyticBin {
 struct Ground {
     osg::Node& mesh;
     const osg::Matrixd& localToEcef;
-    double low;  ///< metres above the ellipsoid; the mesh is between low and high
-    double high;
+    double low;     ///< metres above the ellipsoid; the mesh is not below
     bool isAsRead;  ///< the mesh has not changed since bins were installed
 };
 
@@ -27,7 +26,7 @@ struct Ground {
 class GroundBelow {
 public:
     /// Whether the mesh is below the eye along the ellipsoid's normal. False in doubt: where the normal meets no
-    /// triangle, and for terrain tiles that have no mesh yet.
+    /// triangle, where something in the mesh cannot be read, and for terrain tiles that have no mesh yet.
     /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
     /// triangle of a mesh that has not changed.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);

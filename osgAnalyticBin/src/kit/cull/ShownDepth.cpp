@@ -27,12 +27,9 @@ bool isBelow(const SelectionWalk::NearGround& close, const core::Geodetic& place
     const AnalyticBinCullCallback& tile = *close.tile;
     if (tile.getTerrainShape() && tile.getTerrainShape()->techniqueMargin > 0.0) return false;
     const InstalledTile* const installed = tile.getInstalledTile();
-    const double margin = tile.getBin().margin();
-    return view.traversal.ground.isBelow(
-        place,
-        {*close.mesh, tile.getLocalToEcef(), tile.getBinLow() - margin, tile.getBinHigh() + margin,
-         installed && !installed->has(InstalledTile::MeshChanged)},
-        view.ellipsoid);
+    const bool isAsRead = installed && !installed->has(InstalledTile::MeshChanged);
+    const double low = tile.getBinLow() - tile.getBin().margin();
+    return view.traversal.ground.isBelow(place, {*close.mesh, tile.getLocalToEcef(), low, isAsRead}, view.ellipsoid);
 }
 
 // Whether the eye is above the ground, or will be, once finer meshes come.
