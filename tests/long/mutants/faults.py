@@ -49,6 +49,8 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
+    Fault("alpha is always drawn", "src/kit/cull/DrawnState.cpp",
+          " && mask.getAlphaMask()", "", SCENES, f"{NAMED}/doubtful-states.scene"),
     Fault("quads are divided as OSG divides them", "src/kit/surface/SurfaceReading.cpp",
           "localToEcef(), mesh, true)", "localToEcef(), mesh)", NODE, "TileSurface.HoldsQuads*"),
     Fault("billboards do not turn", "src/kit/surface/SurfaceReading.cpp",
@@ -618,8 +620,7 @@ FAULTS = [
     Fault("state: shaders do not matter", "src/kit/cull/DrawnState.cpp", "drawsTriangles(program) ? kHarmless : kUnknown;",
           "drawsTriangles(program) ? kHarmless : kHarmless;", NODE, "Evidence.*:TerrainOcclusion.*"),
     Fault("state: masks of colours do not matter", "src/kit/cull/DrawnState.cpp",
-          "mask.getBlueMask() ? kHarmless : kHidesNothing;", "mask.getBlueMask() ? kHarmless : kHarmless;", SCENES,
-          NAMED),
+          "return drawsAll ? kHarmless : kHidesNothing;", "return drawsAll ? kHarmless : kHarmless;", SCENES, NAMED),
 
     # evidence, and what ignores depth
     Fault("state: a drawable's own draw callback does not matter", "src/kit/cull/DrawnState.cpp",

@@ -138,8 +138,8 @@ Maker assembly(bool isVertex, const std::string& text) {
     });
 }
 
-osg::ref_ptr<osg::StateAttribute> makeMask(bool hasColours) {
-    return new osg::ColorMask(hasColours, hasColours, hasColours, true);
+osg::ref_ptr<osg::StateAttribute> makeMask(bool hasColours, bool hasAlpha = true) {
+    return new osg::ColorMask(hasColours, hasColours, hasColours, hasAlpha);
 }
 
 osg::ref_ptr<osg::StateAttribute> makeStencil() {
@@ -246,6 +246,7 @@ std::vector<NamedState> makeStates() {
         {"front face COUNTER CLOCKWISE", made<osg::FrontFace>(osg::FrontFace::COUNTER_CLOCKWISE), {}},
         {"no colours", [] { return makeMask(false); }, {}},
         {"all colours", [] { return makeMask(true); }, {}},
+        {"no alpha", [] { return makeMask(true, false); }, {}},
         {"stencil EQUAL", makeStencil, {}},
         {"stencil that writes", makeWritingStencil, {}},
         {"two-sided stencil", makeTwoSidedStencil, {}},

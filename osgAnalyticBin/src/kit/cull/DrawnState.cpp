@@ -86,7 +86,8 @@ DrawnState ofPolygonMode(const osg::PolygonMode& mode) {
 }
 
 DrawnState ofColorMask(const osg::ColorMask& mask) {
-    return mask.getRedMask() && mask.getGreenMask() && mask.getBlueMask() ? kHarmless : kHidesNothing;
+    const bool drawsAll = mask.getRedMask() && mask.getGreenMask() && mask.getBlueMask() && mask.getAlphaMask();
+    return drawsAll ? kHarmless : kHidesNothing;
 }
 
 DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
