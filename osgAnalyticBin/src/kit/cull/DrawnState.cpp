@@ -206,11 +206,6 @@ bool isMirrored(osgUtil::CullVisitor& visitor) {
     return ((x ^ y) * z < 0.0) != ((p(0, 0) * p(1, 1) < p(0, 1) * p(1, 0)) != looksBackward);
 }
 
-// OSG takes some textures without alpha for translucent.
-bool hasAlpha(const osg::Image& image) {
-    return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
-}
-
 // As the technique decides it, by the first image. A tile that inherits the policy knows its Terrain only after its
 // first traversal: the database asks the Terrain in each view.
 bool isBlended(const osgTerrain::TerrainTile& tile) {
@@ -221,7 +216,7 @@ bool isBlended(const osgTerrain::TerrainTile& tile) {
     for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
         const osgTerrain::Layer* const layer = tile.getColorLayer(i);
         const osg::Image* const image = layer ? layer->getImage() : nullptr;
-        if (image) return hasAlpha(*image);
+        if (image) return image->isImageTranslucent();
     }
     return false;
 }
