@@ -49,6 +49,10 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
+    Fault("depth is tested without a state", "src/kit/cull/DrawnState.cpp",
+          "bool says = !visitor.getRenderInfo().getView();", "bool says = true;", NODE, "HiddenByTerrain.NeedsADepthTest*"),
+    Fault("models are drawn in the database's state", "src/kit/cull/HidingView.cpp",
+          "!graph || !saysDepthTest(visitor)", "!graph", NODE, "HiddenByTerrain.NeedsADepthTest*"),
     Fault("alpha is always drawn", "src/kit/cull/DrawnState.cpp",
           " && mask.getAlphaMask()", "", SCENES, f"{NAMED}/doubtful-states.scene"),
     Fault("quads are divided as OSG divides them", "src/kit/surface/SurfaceReading.cpp",

@@ -22,6 +22,8 @@
 #include <osg/LOD>
 #include <osg/PolygonMode>
 #include <osg/Projection>
+#include <osg/RenderInfo>
+#include <osg/View>
 
 #include <functional>
 #include <string>
@@ -50,6 +52,24 @@ struct ModelsOnGlobe : RidgeGlobe {
 
 const osg::Vec3d kBehindRidge = ecefDeg(0.1, 0.9, 300.0), kBeforeRidge = ecefDeg(0.1, 0.3, 300.0),
                  kAboveRidge = ecefDeg(0.1, 0.9, 20000.0), kBehindHorizon = ecefDeg(0.1, 15.0, 300.0);
+
+// Cameras of osg::Views have one in their default state, unless the application has taken that away.
+TEST(HiddenByTerrain, NeedsADepthTestInViews) {
+    ModelsOnGlobe globe;
+    const auto behind = globe.add(kBehindRidge);
+    const auto testDepth = [](osg::Node& node) {
+        node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
+    };
+    const osg::ref_ptr<osg::View> view = new osg::View;
+    osg::RenderInfo info(nullptr, view);
+    globe.visitor->setRenderInfo(info);
+    EXPECT_TRUE(globe.drawsFarTile());
+    testDepth(*globe.root);
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_TRUE(globe.draws(*behind, RidgeGlobe::alongRow()));
+    testDepth(*globe.scene);
+    EXPECT_FALSE(globe.draws(*behind, RidgeGlobe::alongRow()));
+}
 
 TEST(HiddenByTerrain, LeavesOutWhatIsBehindARidge) {
     ModelsOnGlobe globe;

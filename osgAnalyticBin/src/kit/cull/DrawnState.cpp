@@ -289,6 +289,13 @@ DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGra
     return drawn;
 }
 
+bool saysDepthTest(osgUtil::CullVisitor& visitor) {
+    bool says = !visitor.getRenderInfo().getView();
+    for (const auto* graph = visitor.getCurrentStateGraph(); !says && graph; graph = graph->_parent)
+        says = graph->_stateset && !(graph->_stateset->getMode(GL_DEPTH_TEST) & Attribute::INHERIT);
+    return says;
+}
+
 DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, const osgUtil::StateGraph* end) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
     if (!cullVisitor) return kHarmless;
@@ -298,6 +305,7 @@ DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, c
     for (const auto* graph = present; !isWindingSet && graph && graph != end; graph = graph->_parent)
         isWindingSet = graph->_stateset && graph->_stateset->getAttribute(Attribute::FRONTFACE);
     if (!isWindingSet) drawn &= kHidesNothing;
+    if (!end && !saysDepthTest(*cullVisitor)) drawn &= kUnknown;
     return drawn;
 }
 

@@ -13,8 +13,9 @@
 #include <osgTerrain/TerrainTile>
 
 namespace osgUtil {
+class CullVisitor;
 class StateGraph;
-}
+}  // namespace osgUtil
 
 namespace osgAnalyticBin {
 
@@ -75,6 +76,10 @@ struct StateRules {
 /// Of the states of a graph and of those above it, without `end` and those above that.
 [[nodiscard]] DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end,
                                      const StateRules& rules);
+
+/// Whether a state from the camera to the visitor's present node says whether depth is tested. True for what is drawn
+/// without an osg::View: there an application may have told OpenGL by itself.
+[[nodiscard]] bool saysDepthTest(osgUtil::CullVisitor& visitor);
 
 /// Of the states from the camera to the visitor's present node, or from below `end` where it is among them. Returns:
 /// all is known for visitors that collect no state.

@@ -133,7 +133,7 @@ bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double
 
 DrawnState HidingView::stateAbove(osgUtil::CullVisitor& visitor, const StateRules& rules) {
     const osgUtil::StateGraph* const graph = visitor.getCurrentStateGraph();
-    if (!graph) return {false, false};
+    if (!graph || !saysDepthTest(visitor)) return {false, false};
     if (!_above || graph->_parent != _above) {
         _above = graph->_parent;
         _stateAbove = drawnStates(_above, nullptr, rules);
