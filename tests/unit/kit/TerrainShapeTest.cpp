@@ -11,11 +11,13 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
 #include <osgTerrain/GeometryTechnique>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 
@@ -180,6 +182,39 @@ TEST(VerticalScale, ATileOfAnotherShapeIsCulledByItsSphereAloneUntilItIsFitted) 
     hills.update();
     EXPECT_TRUE(reached().empty());
     EXPECT_EQ(hills.bin(18).getTerrainShape()->verticalScale, 5.0);
+}
+
+// Their scale, sample ratio, blending and technique are those of the Terrain that the application has set.
+TEST(OtherTerrain, ItsTilesHaveNoBins) {
+    Hills hills;
+    const osg::ref_ptr<osgTerrain::Terrain> other = new osgTerrain::Terrain;
+    hills.tiles[0]->setTerrain(other);
+    hills.tiles[1]->setTerrain(hills.terrain);
+    installBins(*hills.terrain);
+    EXPECT_FALSE(installedOn(*hills.tiles[0]));
+    EXPECT_TRUE(installedOn(*hills.tiles[1]));
+    EXPECT_TRUE(installedOn(*hills.tiles[2]));
+    hills.tiles[0]->setTerrain(hills.terrain);
+    installBins(*hills.terrain);
+    EXPECT_TRUE(installedOn(*hills.tiles[0]));
+}
+
+TEST(OtherTerrain, AboveADatabaseLeavesItToOsg) {
+    std::set<std::size_t> missed[2];
+    for (const bool hasBins : {false, true}) {
+        Hills hills;
+        const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+        globe->setEllipsoidModel(new osg::EllipsoidModel);
+        for (const auto& tile : hills.tiles) globe->addChild(tile);
+        hills.terrain->removeChildren(0, hills.terrain->getNumChildren());
+        hills.terrain->addChild(globe);
+        hills.terrain->setVerticalScale(10.0f);
+        hills.watch();
+        if (hasBins) installBins(*globe);
+        hills.update();
+        missed[hasBins ? 1 : 0] = tilesMissed(hills);
+    }
+    EXPECT_EQ(missed[0], missed[1]);
 }
 
 TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {

@@ -99,6 +99,9 @@ public:
     /// because the application may change the Terrain at the same time.
     [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
 
+    /// Whether it follows this Terrain; null: none.
+    [[nodiscard]] bool follows(const osgTerrain::Terrain* terrain) const { return _terrain == terrain; }
+
     /// Whether the Terrain, if any, has tiles blended that inherit its policy. Not for pager threads, as shape().
     [[nodiscard]] bool isTerrainBlended() const;
 

@@ -23,6 +23,7 @@
 #include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
+#include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -102,6 +103,15 @@ bool isAltered(const osg::NodePath& path) {
            std::any_of(path.begin(), path.end(), [&](const osg::Node* node) {
                return node->getCullCallback() && CullCallbacks(*node, isOurs).mayLeaveOut;
            });
+}
+
+// Whether osgTerrain tiles of the database follow another Terrain: the nearest one above them.
+bool isBelowOtherTerrain(const osg::NodePath& path, const Database& database) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        if (const auto* const terrain = dynamic_cast<const osgTerrain::Terrain*>(*node))
+            return !database.follows(terrain);
+    }
+    return false;
 }
 
 // Whether the user has said how deep the occluder is.
@@ -386,6 +396,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
         _database->requestRefit();
         return leaveToOsg(node, nv);
     }
+    if (isBelowOtherTerrain(nv.getNodePath(), *_database)) return leaveToOsg(node, nv);
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();
     const TerrainShape shape = _database->shape(options);

@@ -33,7 +33,7 @@ Message messageOf(Finding finding, bool isInMap) {
         case Finding::StrayTile:
             return {osg::INFO,
                     "% has tiles that stand in several places, below a transform that moves, or elsewhere than where "
-                    "they belong; where they leave a gap, the horizon is not used."};
+                    "they belong, or that belong to another Terrain; where they leave a gap, the horizon is not used."};
         case Finding::TooDeep:
             return {osg::WARN,
                     "% has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."};

@@ -13,8 +13,8 @@ enum class Finding {
     Gap,
     /// The mesh of a tile is not known to fill its place: the horizon is off while the tile is in view.
     Hole,
-    /// A tile is drawn in several places or moves. It has no bin and is no occluder: where there is a gap as well, the
-    /// horizon is off even if its altitude was given.
+    /// A tile is drawn in several places or moves, or as another Terrain than the database's says. It has no bin and is
+    /// no occluder: where there is a gap as well, the horizon is off even if its altitude was given.
     StrayTile,
     /// A tile is not where its bin was stored or installed: a gap and a stray tile.
     MovedTile,

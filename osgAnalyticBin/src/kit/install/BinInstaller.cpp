@@ -351,7 +351,9 @@ private:
 
     // Tells the database why not.
     [[nodiscard]] bool mayHaveBin(const FoundTile& tile) {
-        if (isInstanced(*tile.node, tile.frame, database().root())) {
+        const bool isForeign = isOfOtherTerrain(tile, database());
+        if (isForeign && _parent) Database::report(*recordBetween(), Finding::Unverifiable);
+        if (isForeign || isInstanced(*tile.node, tile.frame, database().root())) {
             database().report(Finding::StrayTile, tile.frame.file);
             return false;
         }

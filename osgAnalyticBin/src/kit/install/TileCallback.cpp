@@ -8,6 +8,7 @@
 #include "../PagedChildren.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
+#include "../database/Database.h"
 #include "../tile/Carrier.h"
 #include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
@@ -21,6 +22,7 @@
 #include <osg/Group>
 #include <osg/PagedLOD>
 #include <osg/Transform>
+#include <osgTerrain/TerrainTile>
 
 #include <cmath>
 #include <utility>
@@ -94,6 +96,16 @@ bool isInstanced(const osg::Node& node, const TileFrame& frame, const osg::Node*
     if (shared->getNumParents() == 0) return false;
     int paths = kMostPaths;
     return hasOtherFrame(node, osg::Matrixd(), frame.localToEcef, root, paths);
+}
+
+bool isOfOtherTerrain(const FoundTile& tile, const Database& database) {
+    bool is = false;
+    const auto look = [&](osg::Node& node) {
+        const auto* const part = node.asGroup() ? dynamic_cast<osgTerrain::TerrainTile*>(&node) : nullptr;
+        is = is || (part && part->getTerrain() && !database.follows(part->getTerrain()));
+    };
+    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) forEachNode(*mesh, look);
+    return is;
 }
 
 bool hasMoved(osg::Node& tile) {

@@ -17,11 +17,15 @@
 namespace osgAnalyticBin {
 
 class AnalyticBinCullCallback;
+class Database;
 class InstalledTile;
 
 /// Whether a tile is drawn in several places of its globe: no bin holds for all of them. `root`: of the tile's
 /// database; null: a CoordinateSystemNode.
 [[nodiscard]] bool isInstanced(const osg::Node& node, const TileFrame& frame, const osg::Node* root);
+
+/// Whether OSG draws something of a tile as another Terrain says than the one that the database follows.
+[[nodiscard]] bool isOfOtherTerrain(const FoundTile& tile, const Database& database);
 
 /// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);
