@@ -62,7 +62,7 @@ bool AnalyticBinCullCallback::readItem(const std::string& item) {
 std::string AnalyticBinCullCallback::getBinText() const {
     if (!_bin.valid() || (_installed && _installed->has(InstalledTile::Outgrown))) return {};
     std::string text = _bin.toText();
-    if (_installed || _wasInstalled) text += "; installed";
+    if (isInstalled()) text += "; installed";
     if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
     if (_surface.valid()) text += "; surface " + _surface.toText();
     if (const auto& shape = _setup->shape) {

@@ -147,7 +147,7 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
 
 void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
     forEachNode(subgraph, [&nested](osg::Node& node) {
-        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
+        if (hasInstalledBin(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
         takeOffFirst<NoCulling>(node);
         removeFromLod(node);
