@@ -65,6 +65,10 @@ std::string nodeName(Hook hook, const TileKey& tile) {
             return "#place " + std::to_string(tile.database);
         case Hook::View:
             return "#view";
+        case Hook::Model:
+            return "#model 0";
+        case Hook::Tower:
+            return "#tower 0";
     }
     return {};
 }
@@ -94,6 +98,7 @@ bool altersDrawing(PartKind kind) {
         case PartKind::DrawableCull:
         case PartKind::DrawableDraw:
         case PartKind::VisitorLeavesOut:
+        case PartKind::TileData:
             return true;
         default:
             return false;

@@ -152,7 +152,8 @@ enum class PartKind {
     SaveAndLoad,
     Expire,
     Move,
-    Shove  // a transform at or above a mesh is turned about the axis
+    Shove,    // a transform at or above a mesh is turned about the axis
+    TileData  // of osgTerrain, see Parts.cpp
 };
 
 /// Where in the scene a part is.
@@ -168,7 +169,9 @@ enum class Hook {
     Drawable,  ///< the first one of the geode
     Above,     ///< a group of GroupTree
     Place,     ///< the transform above a database
-    View       ///< the camera's own state
+    View,      ///< the camera's own state
+    Model,     ///< of the first part
+    Tower      ///< its drawable
 };
 
 /// One ingredient or event.
@@ -184,6 +187,7 @@ struct Part {
     double latitude = 0.0, longitude = 0.0;  ///< radians; in a map, metres
     double low = 0.0, high = 0.0;            ///< metres
     double amount = 0.0;
+    bool asks = false;  ///< a model asks whether terrain hides it
     osg::Matrixd view, projection;
     CullOptions options;
 };

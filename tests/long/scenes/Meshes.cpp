@@ -11,6 +11,7 @@
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osg/PrimitiveSetIndirect>
 #include <osgTerrain/Layer>
 #include <osgTerrain/Locator>
 #include <osgTerrain/TerrainTile>
@@ -183,11 +184,30 @@ bool isInHole(const Cell& cell, unsigned int cells, int variant) {
     }
 }
 
+// Nobody knows which triangles are drawn: the diagonals of quads are the driver's, and this command draws none.
+constexpr int kQuads = 5, kByCommand = 6;
+
+void drawOtherwise(osg::Geometry& geometry, const osg::DrawElementsUInt& triangles, unsigned int cells, int variant) {
+    if (variant == kByCommand) {
+        const osg::ref_ptr<osg::DrawElementsIndirectUInt> command = new osg::DrawElementsIndirectUInt(GL_TRIANGLES);
+        command->assign(triangles.begin(), triangles.end());
+        return static_cast<void>(geometry.setPrimitiveSet(0, command));
+    }
+    const osg::ref_ptr<osg::DrawElementsUInt> quads = new osg::DrawElementsUInt(GL_QUADS);
+    const unsigned int posts = cells + 1;
+    for (unsigned int i = 0; i + posts + 1 < posts * posts; ++i) {
+        if (i % posts == cells) continue;
+        for (const unsigned int corner : {i, i + 1, i + posts + 1, i + posts}) quads->push_back(corner);
+    }
+    geometry.setPrimitiveSet(0, quads);
+}
+
 // The grid's triangles are in the first primitive set; see gridTriangles().
 void cutHole(osg::Geometry& geometry, int variant) {
     auto* const triangles = dynamic_cast<osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
     if (!triangles || triangles->size() % 6 != 0) return;
     const auto cells = static_cast<unsigned int>(std::lround(std::sqrt(static_cast<double>(triangles->size() / 6))));
+    if (variant == kQuads || variant == kByCommand) return drawOtherwise(geometry, *triangles, cells, variant);
     osg::ref_ptr<osg::DrawElementsUInt> kept = new osg::DrawElementsUInt(GL_TRIANGLES);
     for (unsigned int i = 0; i + 2 < triangles->size(); i += 3) {
         const Cell cell{i / 6 % cells, i / 6 / cells, i % 6 != 0};
@@ -314,6 +334,7 @@ osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part
     const bool isSign = part.kind == PartKind::Sign;
     const osg::ref_ptr<osg::Geometry> tower =
         makeTower(height, isSign ? part.amount : std::max(0.05 * height, 300.0 * database.scale()));
+    tower->setName("#tower " + std::to_string(part.id));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     if (part.variant != 0 && !isSign)
         geode = makeBillboard(*tower, height, part);

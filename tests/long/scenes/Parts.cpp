@@ -11,12 +11,16 @@
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
 #include <osg/Geode>
+#include <osg/Image>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osg/PolygonMode>
 #include <osg/Switch>
+#include <osgTerrain/GeometryTechnique>
+#include <osgTerrain/Layer>
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
+#include <osgTerrain/ValidDataOperator>
 
 #include <algorithm>
 #include <string>
@@ -75,7 +79,9 @@ void addModel(const Part& part, const Description& description, osg::Node& node)
     osg::Group* group = node.asGroup();
     if (!group) return;
     const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
-    group->addChild(makeModel(database, part, frameOf(part, description, node)));
+    const osg::ref_ptr<osg::Node> model = makeModel(database, part, frameOf(part, description, node));
+    if (part.asks) model->addCullCallback(new HiddenByTerrainCallback);
+    group->addChild(model);
 }
 
 // Towers on hills and in valleys, a few of which are drawn in front of all.
@@ -246,6 +252,72 @@ void toggle(osg::Node& node) {
     for (unsigned int i = 0; i < above->getNumChildren(); ++i) above->setValue(i, !above->getValue(i));
 }
 
+class OtherTechnique : public osgTerrain::GeometryTechnique {};
+
+// A layer of one height.
+osg::ref_ptr<osgTerrain::Layer> layerOf(const osgTerrain::HeightFieldLayer& other, double height) {
+    const osg::ref_ptr<osg::HeightField> field = new osg::HeightField(*other.getHeightField());
+    std::fill(field->getHeightList().begin(), field->getHeightList().end(), static_cast<float>(height));
+    const osg::ref_ptr<osgTerrain::Layer> layer = new osgTerrain::HeightFieldLayer(field);
+    layer->setLocator(const_cast<osgTerrain::Locator*>(other.getLocator()));
+    return layer;
+}
+
+osg::ref_ptr<osgTerrain::Layer> translucentImage(osgTerrain::Locator* locator) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    std::fill_n(image->data(), image->getTotalSizeInBytes(), static_cast<unsigned char>(127));
+    const osg::ref_ptr<osgTerrain::Layer> layer = new osgTerrain::ImageLayer(image);
+    layer->setLocator(locator);
+    return layer;
+}
+
+// Variants: without a technique; another technique; blended; other heights; a layer of them; a post without a height;
+// an image that is seen through.
+void setTileData(const Part& part, osgTerrain::TerrainTile& tile) {
+    auto* const heights = dynamic_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer());
+    if (!heights) return;
+    osg::HeightField& field = *heights->getHeightField();
+    constexpr float kNone = -9999.0f;
+    switch (part.variant) {
+        case 0:
+            return tile.setTerrainTechnique(nullptr);
+        case 1:
+            return tile.setTerrainTechnique(new OtherTechnique);
+        case 2:
+            tile.setBlendingPolicy(osgTerrain::TerrainTile::ENABLE_BLENDING);
+            break;
+        case 3:
+            std::fill(field.getHeightList().begin(), field.getHeightList().end(), static_cast<float>(part.amount));
+            break;
+        case 4:
+            tile.setElevationLayer(layerOf(*heights, part.amount));
+            break;
+        case 5:
+            field.setHeight(field.getNumColumns() / 2, field.getNumRows() / 2, kNone);
+            heights->setValidDataOperator(new osgTerrain::NoDataValue(kNone));
+            break;
+        default:
+            tile.setColorLayer(0, translucentImage(heights->getLocator()));
+    }
+    tile.setDirty(true);
+    tile.dirtyBound();
+}
+
+// Variants: blended; equal boundaries; fewer posts; another technique.
+void setTileData(const Part& part, osgTerrain::Terrain& terrain) {
+    switch (part.variant) {
+        case 0:
+            return terrain.setBlendingPolicy(osgTerrain::TerrainTile::ENABLE_BLENDING);
+        case 1:
+            return terrain.setEqualizeBoundaries(true);
+        case 2:
+            return terrain.setSampleRatio(0.5f);
+        default:
+            return terrain.setTerrainTechniquePrototype(new OtherTechnique);
+    }
+}
+
 std::string targetOf(const Part& part) {
     if (part.kind == PartKind::Toggle) return "#switch " + part.tile.text();
     if (part.kind == PartKind::Move) return "#place " + std::to_string(part.tile.database);
@@ -317,6 +389,10 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::SetScale:
             if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(node))
                 terrain->setVerticalScale(static_cast<float>(part.amount));
+            return;
+        case PartKind::TileData:
+            if (auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(node)) setTileData(part, *tile);
+            if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(node)) setTileData(part, *terrain);
             return;
         case PartKind::Expire:
             return expire(*node);

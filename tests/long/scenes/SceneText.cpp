@@ -36,7 +36,8 @@ const Words& wordsOf(PartKind) {
                              "sign",           "unculled",       "traffic",       "camera",
                              "visitor-leaves", "pick",           "toggle",        "set-options",
                              "install",        "uninstall",      "set-scale",     "clone",
-                             "save-and-load",  "expire",         "move",          "shove"};
+                             "save-and-load",  "expire",         "move",          "shove",
+                             "tile-data"};
     return words;
 }
 const Words& wordsOf(Theme) {
@@ -52,8 +53,8 @@ const Words& wordsOf(FileShape) {
     return words;
 }
 const Words& wordsOf(Hook) {
-    static const Words words{"root", "globe", "tile",     "own",   "mesh",  "geode",
-                             "file", "slot",  "drawable", "above", "place", "view"};
+    static const Words words{"root", "globe",    "tile",  "own",   "mesh", "geode", "file",
+                             "slot", "drawable", "above", "place", "view", "model", "tower"};
     return words;
 }
 
@@ -220,6 +221,7 @@ void eachField(Table& table, Part& part) {
     table("low", part.low);
     table("high", part.high);
     table("amount", part.amount);
+    table("asks", part.asks);
     table("view", part.view);
     table("projection", part.projection);
     table("options", part.options);

@@ -19,7 +19,6 @@
 #include <osgTerrain/Terrain>
 
 #include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -221,35 +220,6 @@ class InGroups : public testing::Test {};
 using Groups = testing::Types<osg::Group, osg::Geode, osg::MatrixTransform, osg::PositionAttitudeTransform,
                               osgTerrain::Terrain, osg::Switch>;
 TYPED_TEST_SUITE(InGroups, Groups);
-
-TYPED_TEST(InGroups, TilesThatAreTakenAwayAreMissed) {
-    MeshGlobe globe;
-    const auto above = putTilesBelow<TypeParam>(globe);
-    installBins(*globe.root);
-    // a switch may leave out anything
-    const bool drawsAll = !dynamic_cast<osg::Switch*>(above.get());
-    EXPECT_EQ(globe.drawsAntipode(), !drawsAll);
-    above->removeChild(globe.tiles[19]);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
-    EXPECT_EQ(globe.root->getUpdateCallback(), nullptr) << "nothing is left to do";
-}
-
-TYPED_TEST(InGroups, TilesAreMissedWithTheGroup) {
-    MeshGlobe globe;
-    const osg::ref_ptr<TypeParam> above = new TypeParam;
-    above->addChild(globe.tiles[19]);
-    globe.root->replaceChild(globe.tiles[19], above);
-    installBins(*globe.root);
-    (void)globe.drawsAntipode();
-    globe.root->removeChild(above);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
-}
 
 // An application may compute the bounds of all nodes by callbacks of its own.
 TYPED_TEST(InGroups, ContentIsNoticedWhereTheBoundsOfAllNodesAreComputed) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Models behind hills and behind the horizon. Pictures and random scenes: tests/long/scenes. What the core proves:
+// Models behind hills and behind the horizon. More of them: tests/scenes/models-*.scene. Pictures and random scenes:
+// tests/long/scenes. What the core proves:
 // SortedEarthTest.cpp, HorizonTest.cpp.
 
 #include "ApplicationGlobe.h"
@@ -71,28 +72,6 @@ TEST(HiddenByTerrain, NeedsADepthTestInViews) {
     EXPECT_FALSE(globe.draws(*behind, RidgeGlobe::alongRow()));
 }
 
-TEST(HiddenByTerrain, LeavesOutWhatIsBehindARidge) {
-    ModelsOnGlobe globe;
-    const auto behind = globe.add(kBehindRidge), before = globe.add(kBeforeRidge), above = globe.add(kAboveRidge);
-    const auto inDatabase = globe.add(kBehindRidge, *globe.root);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_FALSE(globe.draws(*behind, RidgeGlobe::alongRow()));
-        EXPECT_FALSE(globe.draws(*inDatabase, RidgeGlobe::alongRow()));
-        EXPECT_TRUE(globe.draws(*before, RidgeGlobe::alongRow()));
-        EXPECT_TRUE(globe.draws(*above, RidgeGlobe::alongRow()));
-    }
-}
-
-// The middle of a large one is behind the ridge.
-TEST(HiddenByTerrain, DrawsWhatReachesOverARidge) {
-    for (const bool isLarge : {false, true}) {
-        ModelsOnGlobe globe;
-        const auto model = globe.add(kBehindRidge);
-        if (isLarge) model->preMult(osg::Matrixd::scale(600.0, 600.0, 600.0));
-        EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isLarge);
-    }
-}
-
 // A globe of large tiles, seen from above, and models on it.
 struct ModelsOnRoundGlobe : MeshGlobe {
     explicit ModelsOnRoundGlobe(const CullOptions& options, double altitude = 0.0) : MeshGlobe(altitude) {
@@ -120,33 +99,11 @@ CullView fromAbove(double altitude = 5e5, double near = 1e3) {
 
 const osg::Vec3d kBelowEye = ecefDeg(22.5, -22.5, 300.0), kOtherSide = ecefDeg(-22.5, 157.5, 300.0);
 
-TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizon) {
-    for (const OcclusionUse use : {OcclusionUse::On, OcclusionUse::Off}) {
-        CullOptions options;
-        options.occlusion = use;
-        ModelsOnRoundGlobe globe(options);
-        const CullView view = fromAbove();
-        EXPECT_FALSE(globe.drawsModelAt(kOtherSide, view));
-        EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
-        EXPECT_TRUE(globe.drawsModelAt(ecefDeg(22.5, -22.5, 3e5), view));
-        options.horizonUse = HorizonUse::Off;
-        ModelsOnRoundGlobe without(options);
-        EXPECT_TRUE(without.drawsModelAt(kOtherSide, view));
-    }
-}
-
 // Where a near plane cuts terrain open, models behind the horizon may be seen through it.
 TEST(HiddenByTerrain, HidesNothingBehindTheHorizonWhereTheNearPlaneMayCutTerrain) {
     ModelsOnRoundGlobe globe(CullOptions(), 8000.0);
     for (const double near : {1e3, 8e3})
         EXPECT_EQ(globe.drawsModelAt(kOtherSide, fromAbove(20000.0, near)), near > 4e3) << near;
-}
-
-// With a near plane far in front of the eye, a depth buffer tells distances apart that it does not otherwise.
-TEST(HiddenByTerrain, HidesBehindTheHorizonOnlyWhatADepthBufferTellsFromTerrain) {
-    ModelsOnRoundGlobe globe{CullOptions()};
-    for (const double near : {1e-3, 1e3})
-        EXPECT_EQ(globe.drawsModelAt(kOtherSide, fromAbove(5e5, near)), near < 1.0) << near;
 }
 
 TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlane) {
