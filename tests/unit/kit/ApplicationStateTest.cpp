@@ -5,7 +5,6 @@
 // Content: ApplicationContentTest.cpp. States of all kinds, more holes: tests/scenes.
 
 #include "ApplicationGlobe.h"
-#include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -38,18 +37,6 @@ TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     EXPECT_FALSE(globe.drawsAntipode());
     mirror->setMatrix({});
     EXPECT_TRUE(globe.drawsAntipode());
-}
-
-// So may a camera of which the picture is mirrored, as that of a driver's mirror.
-TEST(SeeThroughTerrain, HidesNothingWhereAMirroredPictureShowsItsBack) {
-    MeshGlobe globe;
-    installBins(*globe.root);
-    CullView view = MeshGlobe::fromAbove();
-    EXPECT_FALSE(globe.draws(*globe.tiles[15], view));
-    view.projection.postMultScale(osg::Vec3d(-1.0, 1.0, 1.0));
-    EXPECT_TRUE(globe.draws(*globe.tiles[15], view));
-    globe.root->getOrCreateStateSet()->setAttribute(new osg::FrontFace(osg::FrontFace::CLOCKWISE));
-    EXPECT_FALSE(globe.draws(*globe.tiles[15], view));
 }
 
 // Programs that compare pictures draw in the order of the traversal.
@@ -136,24 +123,6 @@ TEST(HoledGlobe, IsSeenThroughWhereAClassOfTheApplicationsPagesTiles) {
         installBins(*globe.root);
         if (isBehind) globe.root->addCullCallback(new osg::NodeCallback);
         EXPECT_TRUE(globe.drawsAntipode()) << isBehind;
-    }
-}
-
-// By the plane that the application has set, though the one that OSG computes would leave them.
-TEST(HoledGlobe, IsSeenThroughWhereTilesAreCulledByTheNearPlane) {
-    const osg::Vec3d above = ecefDeg(0.1, 1.1, 20000.0);
-    CullView view = CullView::lookAt(above, {0, 0, 0}, {0, 0, 1}, 5.0);
-    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-    for (const double near : {1.0, 1e6}) {
-        RidgeGlobe globe;
-        installBins(*globe.root);
-        view.projection = osg::Matrixd::perspective(5.0, 1.0, near, 1e8);
-        view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
-        EXPECT_EQ(globe.draws(*globe.row[5], view), near < 1e4);
-        EXPECT_EQ(globe.draws(*globe.tiles[8], view), near > 1e4);
-        view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
-        EXPECT_TRUE(globe.draws(*globe.row[5], view));
-        EXPECT_FALSE(globe.draws(*globe.tiles[8], view));
     }
 }
 

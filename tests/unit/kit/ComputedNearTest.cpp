@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles behind a ridge, where OSG computes the near plane.
+// Tiles behind a ridge, where OSG computes the near plane. Something far away beside them: tests/scenes/computed-near*.
 
 #include "CullFixture.h"
 #include "RidgeGlobe.h"
@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <osg/Camera>
 #include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
@@ -87,22 +86,6 @@ TEST(ComputedNear, IsNotKnownBelowACameraWithACallback) {
     EXPECT_FALSE(planes.hidesFarTile());
 }
 
-TEST(ComputedNear, IsAsFarAsWhatIsBesideTheDatabase) {
-    for (const bool isBefore : {false, true}) {
-        ComputedPlanes planes;
-        planes.scene->insertChild(isBefore ? 0 : 1, planes.drawableAhead(1e10));  // the plane at 100 km
-        EXPECT_FALSE(planes.hidesFarTile());
-        planes.scene->getChild(isBefore ? 0 : 1)->setNodeMask(0);
-        EXPECT_TRUE(planes.hidesFarTile());
-    }
-    ComputedPlanes planes;
-    const osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
-    absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    absolute->addChild(ComputedPlanes::drawableAt(osg::Vec3(0.0f, 0.0f, -1e10f)));
-    planes.scene->addChild(absolute);
-    EXPECT_FALSE(planes.hidesFarTile());
-}
-
 // Where the root tests no tiles together, OSG enters what is there by itself.
 TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
     for (const bool isTerrain : {true, false}) {
@@ -123,18 +106,6 @@ TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
         root->addChild(planes.drawableAhead(1e10));
         EXPECT_FALSE(planes.hidesFarTile()) << isTerrain;
     }
-}
-
-TEST(ComputedNear, IsFoundBelowTransforms) {
-    ComputedPlanes planes;
-    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 1e3));
-    planes.scene->removeChild(planes.globe.root);
-    moved->addChild(planes.globe.root);
-    planes.scene->addChild(moved);
-    planes.view.modelView = osg::Matrixd::translate(0.0, 0.0, -1e3) * planes.view.modelView;
-    EXPECT_TRUE(planes.hidesFarTile());
-    moved->addChild(planes.drawableAhead(1e10));
-    EXPECT_FALSE(planes.hidesFarTile());
 }
 
 TEST(ComputedNear, IsUnknownBesideWhatIsUnknown) {

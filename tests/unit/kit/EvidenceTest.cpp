@@ -74,27 +74,6 @@ void seeThrough(osg::Node& node) {
     node.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
 }
 
-// The own mesh hides alone: the others need not fill its place.
-TEST(AddedLevels, AreDrawnWhateverIsMissingOrSeenThroughAmongThem) {
-    for (int count = 1; count <= 4; ++count) {
-        for (int blended = 0; blended <= count; ++blended) {
-            MeshGlobe globe;
-            const osg::ref_ptr<osg::Group> file = new osg::Group;
-            for (int i = 0; i < count; ++i) {
-                const double south = 22.5 * (i / 2), west = -45.0 + 22.5 * (i % 2);
-                file->addChild(
-                    makePaged(makeMeshTile(extentsDeg(south, south + 22.5, west, west + 22.5), 0.0), "no.osgb"));
-            }
-            if (blended < count) seeThrough(*file->getChild(static_cast<unsigned int>(blended)));
-            addTo(*globe.tiles[19], file);
-            installBins(*globe.root);
-            for (unsigned int i = 0; i < file->getNumChildren(); ++i)
-                EXPECT_TRUE(globe.draws(*file->getChild(i), MeshGlobe::fromAbove(8e6))) << count << blended << i;
-            EXPECT_FALSE(globe.drawsAntipode(8e6)) << count << blended;
-        }
-    }
-}
-
 TEST(AddedLevels, HideWhatIsBehindThemUnlessTheyAreSeenThrough) {
     for (const bool isBlended : {false, true}) {
         RidgeGlobe globe(0.0);
@@ -166,24 +145,6 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
 struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
     osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
 };
-
-TEST(AddedContent, IsNoticedWhereTheApplicationComputesTheBoundOfATile) {
-    for (const bool isOwn : {false, true}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
-        const osg::Vec3d at = ecefDeg(22.5, -22.5, 300000.0);
-        const CullView view = beside(at);
-        EXPECT_FALSE(globe.draws(*globe.tiles[19], view));
-        globe.tiles[19]->setComputeBoundingSphereCallback(isOwn ? new OwnBound : nullptr);
-        const osg::ref_ptr<osg::Node> tower = makeTower(at);
-        globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
-        globe.tiles[19]->setRange(1, 0.0f, 1e10f);
-        for (int i = 0; i < 4; ++i) {
-            EXPECT_TRUE(globe.draws(*tower, view)) << isOwn << i;
-            update(*globe.root);
-        }
-    }
-}
 
 struct FarBound : osg::Node::ComputeBoundingSphereCallback {
     osg::BoundingSphere computeBound(const osg::Node&) const override { return {osg::Vec3(1e8f, 0.0f, 0.0f), 1.0f}; }

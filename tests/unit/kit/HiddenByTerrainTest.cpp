@@ -15,13 +15,10 @@
 
 #include <gtest/gtest.h>
 #include <osg/AutoTransform>
-#include <osg/Billboard>
 #include <osg/Camera>
-#include <osg/Depth>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/LOD>
-#include <osg/PolygonMode>
 #include <osg/Projection>
 #include <osg/RenderInfo>
 #include <osg/View>
@@ -51,8 +48,7 @@ struct ModelsOnGlobe : RidgeGlobe {
     osg::ref_ptr<osg::MatrixTransform> add(const osg::Vec3d& at) { return add(at, *scene); }
 };
 
-const osg::Vec3d kBehindRidge = ecefDeg(0.1, 0.9, 300.0), kBeforeRidge = ecefDeg(0.1, 0.3, 300.0),
-                 kAboveRidge = ecefDeg(0.1, 0.9, 20000.0), kBehindHorizon = ecefDeg(0.1, 15.0, 300.0);
+const osg::Vec3d kBehindRidge = ecefDeg(0.1, 0.9, 300.0), kBeforeRidge = ecefDeg(0.1, 0.3, 300.0);
 
 // Cameras of osg::Views have one in their default state, unless the application has taken that away.
 TEST(HiddenByTerrain, NeedsADepthTestInViews) {
@@ -132,32 +128,6 @@ TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabase) {
     EXPECT_TRUE(whole.draws(*behind, RidgeGlobe::alongRow()));
 }
 
-TEST(HiddenByTerrain, DrawsEverythingWithoutAViewOfADatabase) {
-    ModelsOnGlobe globe;
-    const auto model = globe.add(kBehindRidge);
-    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
-    // the database is not traversed any more
-    globe.root->setNodeMask(0);
-    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
-    globe.root->setNodeMask(~0u);
-    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
-    // it hides nothing from below the ground, in wireframe, and with a tile that may not be drawn
-    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow(-100.0)));
-    CullView wire = RidgeGlobe::alongRow();
-    wire.states = new osg::StateSet;
-    wire.states->setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-    EXPECT_TRUE(globe.draws(*model, wire));
-    globe.row[1]->setNodeMask(0);
-    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
-    globe.row[1]->setNodeMask(~0u);
-    EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
-    CullView unculled = RidgeGlobe::alongRow();
-    unculled.cullingMode = osg::CullSettings::NO_CULLING;
-    EXPECT_TRUE(globe.draws(*model, unculled));
-    removeBins(*globe.root);
-    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
-}
-
 // A camera within the scene, and a projection, see something else.
 TEST(HiddenByTerrain, DrawsEverythingForOtherCamerasInTheSameTraversal) {
     ModelsOnGlobe globe;
@@ -201,13 +171,10 @@ osg::StateSet& stateOf(osg::MatrixTransform& model) {
     return *meshOf(model).getOrCreateStateSet();
 }
 
-class NoDrawing : public osg::Drawable::DrawCallback {};
 class OwnGeometry : public osg::Geometry {
 public:
     explicit OwnGeometry(const osg::Geometry& other) : osg::Geometry(other) {}
 };
-class OwnSphere : public osg::Node::ComputeBoundingSphereCallback {};
-class OwnBox : public osg::Drawable::ComputeBoundingBoxCallback {};
 class OwnCull : public osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
 };
@@ -219,33 +186,14 @@ void wrap(osg::MatrixTransform& model, osg::Group& group) {
     model.addChild(&group);
 }
 
-// What may be drawn in front of terrain, or outside of its sphere.
+// What may be drawn in front of terrain, or outside of its sphere, and is not in tests/scenes/models-*.scene.
 TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
     const std::vector<std::pair<std::string, ModelChange>> changes{
-        {"no depth test", [](auto& model) { stateOf(model).setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
-        {"the same on the node",
-         [](auto& model) { model.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); }},
-        {"always", [](auto& model) { stateOf(model).setAttribute(new osg::Depth(osg::Depth::ALWAYS)); }},
-        {"a range of depths",
-         [](auto& model) { stateOf(model).setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 0.1)); }},
-        {"shaders", [](auto& model) { stateOf(model).setAttribute(new osg::Program); }},
         {"a bin of its own", [](auto& model) { stateOf(model).setRenderBinDetails(3, "SomeBin"); }},
-        {"outlines",
-         [](auto& model) {
-             stateOf(model).setAttribute(
-                 new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-         }},
         {"smooth edges", [](auto& model) { stateOf(model).setMode(GL_POLYGON_SMOOTH, osg::StateAttribute::ON); }},
         {"points", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},
         {"lines", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_LINE_STRIP); }},
-        {"a draw callback", [](auto& model) { meshOf(model).setDrawCallback(new NoDrawing); }},
-        {"an update callback of the mesh",
-         [](auto& model) { meshOf(model).setUpdateCallback(new osg::DrawableUpdateCallback); }},
-        {"a cull callback", [](auto& model) { model.addCullCallback(new OwnCull); }},
         {"a cull callback below", [](auto& model) { model.getChild(0)->addCullCallback(new OwnCull); }},
-        {"a bound of its own", [](auto& model) { model.setComputeBoundingSphereCallback(new OwnSphere); }},
-        {"a box of its own", [](auto& model) { meshOf(model).setComputeBoundingBoxCallback(new OwnBox); }},
-        {"no culling", [](auto& model) { model.setCullingActive(false); }},
         {"no culling below", [](auto& model) { model.getChild(0)->setCullingActive(false); }},
         {"another frame",
          [](auto& model) {
@@ -273,13 +221,6 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
              lod->setRadius(1.0f);
              wrap(model, *lod);
              lod->setRange(0, 0.0f, 1e9f);
-         }},
-        {"a billboard",
-         [](auto& model) {
-             const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
-             billboard->addDrawable(&meshOf(model));
-             model.removeChildren(0, 1);
-             model.addChild(billboard);
          }},
         {"a class of the application's",
          [](auto& model) { model.getChild(0)->asGroup()->addChild(new OwnGeometry(meshOf(model))); }},
@@ -309,14 +250,6 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
 
 TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
     const std::vector<std::pair<std::string, ModelChange>> changes{
-        {"a texture unit", [](auto& model) { stateOf(model).setTextureMode(0, GL_TEXTURE_2D, 1); }},
-        {"blending", [](auto& model) { stateOf(model).setMode(GL_BLEND, osg::StateAttribute::ON); }},
-        {"shaders that draw triangles",
-         [](auto& model) {
-             const osg::ref_ptr<osg::Program> program = new osg::Program;
-             setDrawsTriangles(*program);
-             stateOf(model).setAttribute(program);
-         }},
         {"levels of detail",
          [](auto& model) {
              const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
@@ -333,7 +266,6 @@ TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
          }},
         {"another node that asks",
          [](auto& model) { model.getChild(0)->addCullCallback(new HiddenByTerrainCallback); }},
-        {"an update callback", [](auto& model) { model.setUpdateCallback(new osg::NodeCallback); }},
         {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }},
     };
     for (const auto& [name, change] : changes) {

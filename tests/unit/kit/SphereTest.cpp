@@ -85,26 +85,6 @@ TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
     }
 }
 
-// Where it is OSG that enters them: such as have callbacks, and such as stand in for a file.
-TEST(Spheres, OfMeshesThatLeaveThemOutInViewEndTheHorizon) {
-    const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f);
-    for (const osg::BoundingSphere& bound : {around, elsewhere}) {
-        for (const bool isAwaited : {false, true}) {
-            MeshGlobe globe;
-            osg::PagedLOD& tile = *globe.tiles[19];
-            tile.setRadius(4e6f);
-            tile.setRange(isAwaited ? 1 : 0, 0.0f, 1e10f);
-            tile.setRange(isAwaited ? 0 : 1, 1e10f, 1e10f);
-            tile.getChild(0)->setComputeBoundingSphereCallback(new OwnBound(bound));
-            tile.getChild(0)->dirtyBound();
-            if (!isAwaited) tile.getChild(0)->setCullCallback(new osg::NodeCallback);
-            installBins(*globe.root);
-            EXPECT_EQ(globe.draws(tile, MeshGlobe::fromAbove()), bound == around) << isAwaited;
-            EXPECT_EQ(globe.drawsAntipode(), bound != around) << isAwaited;
-        }
-    }
-}
-
 // Houses in a file of their own, and a finer level of the ground beside them.
 TEST(Spheres, OfObjectsStayTheirOnlyTest) {
     MeshGlobe globe;
