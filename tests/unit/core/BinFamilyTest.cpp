@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <utility>

@@ -19,11 +19,8 @@ namespace osgAnalyticBin::test {
 namespace {
 
 using core::Ellipsoid;
-using core::Geodetic;
-using core::GeodeticBin;
 using core::GeodeticGrid;
 using core::GeodeticGridBounds;
-using core::Interval;
 
 constexpr double kPromisedSag = 1e-7;  // metres
 

@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {

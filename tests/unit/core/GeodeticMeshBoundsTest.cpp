@@ -10,12 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <support/RandomBins.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

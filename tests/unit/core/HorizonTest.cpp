@@ -10,9 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>

@@ -10,10 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <cstdio>
 #include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>

@@ -248,21 +248,18 @@ core::EarthColumns columnsOf(const EarthColumn& column) {
     return columns;
 }
 
-void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
-             double reach) {
+void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         plates.columns(cells, cells, quarter, depth, 0.0, frameOf(scene), columns);
-        // for eyes that may be away from their place
-        for (double& error : columns.error) error += reach;
         buffer.add(columns);
     }
 }
 
-std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
+std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer) {
     std::vector<OutlinedPart> sorted;
     const core::Frame frame = frameOf(scene);
     for (const GroundTile& tile : scene.tiles) {
@@ -274,11 +271,11 @@ std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const Horizon
                 bin.withAltitude({altitude.lower, std::clamp(top, altitude.lower, altitude.upper)});
             sorted.push_back({{{}, drawn}, buffer.outlineOf(hull)});
         };
-        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frame).quarters();
+        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, 0.0, frame).quarters();
         const auto bins = tile.bin.quarters();
         for (std::size_t quarter = 0; quarter < 4; ++quarter) {
             add(hulls[quarter], bins[quarter], plates.mostOfQuarter(quarter, tile.bin));
-            const auto parts = core::BinBody(scene.ellipsoid, bins[quarter], reach, frame).quarters();
+            const auto parts = core::BinBody(scene.ellipsoid, bins[quarter], 0.0, frame).quarters();
             for (std::size_t i = 0; i < 4; ++i)
                 add(parts[i], bins[quarter].quarters()[i], plates.most(4 * quarter + i, tile.bin));
         }

@@ -67,9 +67,7 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 [[nodiscard]] bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes);
 
 /// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
-/// `reach`: metres that the eye may be away from its place.
-void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
-             double reach = 0.0);
+void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells);
 
 /// A quarter of a tile, or a part of one, with its outline in the buffer's picture.
 struct OutlinedPart {
@@ -78,9 +76,8 @@ struct OutlinedPart {
 };
 
 /// The quarters of all tiles and their parts, up to the tops of their meshes, the nearest first: so the buffer has to
-/// be asked. `reach` as above.
-[[nodiscard]] std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
-                                                    double reach = 0.0);
+/// be asked.
+[[nodiscard]] std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer);
 
 [[nodiscard]] bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point);
 

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <support/RandomBins.h>
 
@@ -19,7 +18,6 @@ using core::GeodeticBin;
 using core::Interval;
 using core::Plane;
 using core::quadraticOrExact;
-using core::Side;
 
 bool isExact(const core::QuadraticOrExact& bin) {
     return std::holds_alternative<core::ExactGeodeticBin>(bin);

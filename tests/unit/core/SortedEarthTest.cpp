@@ -11,9 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
