@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <index/CrackFloor.h>
 #include <index/Neighbours.h>
 #include <memory>

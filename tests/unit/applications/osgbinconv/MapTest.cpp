@@ -19,7 +19,6 @@
 #include <filesystem>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
