@@ -14,8 +14,7 @@
 #include <gtest/gtest.h>
 #include <osg/Projection>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <support/CapturedNotes.h>
@@ -151,19 +150,28 @@ Look lookOf(CameraGlobe& globe, const CullView& view) {
     return lookOf(globe, view, *visitor);
 }
 
+// Sums over random views of a kind, in which no tile is missing. `beginning`: where sight begins.
+LookTotals totalsOf(const Kind& kind, CameraGlobe& globe, std::uint64_t seed, NearPlane beginning,
+                    int cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING,
+                    std::optional<double> occluder = std::nullopt) {
+    test::Random random(seed);
+    LookTotals totals;
+    for (int i = 0; i < kViews; ++i) {
+        CullView view = viewOf(kind, random);
+        view.cullingMode = cullingMode;
+        EXPECT_TRUE(totals.add(globe, lookOf(globe, view), beginning, occluder).empty()) << kind.name << ", view " << i;
+    }
+    return totals;
+}
+
 TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
     for (const Method method : {Method::Quadratic, Method::Exact}) {
         CullOptions options;
         options.method = method;
         CameraGlobe globe(options);
         for (const Kind& kind : kKinds) {
-            test::Random random(70);
-            LookTotals totals;
-            for (int i = 0; i < kViews; ++i) {
-                // what near and far planes cut off is kept: only the sides cull
-                const Look look = lookOf(globe, viewOf(kind, random));
-                EXPECT_TRUE(totals.add(globe, look, NearPlane::AtTheEye).empty()) << kind.name << ", view " << i;
-            }
+            // what near and far planes cut off is kept: only the sides cull
+            const LookTotals totals = totalsOf(kind, globe, 70, NearPlane::AtTheEye);
             EXPECT_LT(totals.reached, 1.5 * double(totals.seen) + 1.0 * kViews) << kind.name;
             EXPECT_LT(totals.reached, totals.tiles / 2) << kind.name;
         }
@@ -171,33 +179,20 @@ TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
 }
 
 TEST(Projections, TheHorizonHidesNothingInThePicture) {
+    constexpr int kSides = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
     CameraGlobe globe(test::horizonOptions());
     CameraGlobe without;
     for (const Kind& kind : kKinds) {
-        test::Random random(71);
-        LookTotals totals, plain;
-        for (int i = 0; i < kViews; ++i) {
-            const CullView view = viewOf(kind, random);
-            EXPECT_TRUE(totals.add(globe, lookOf(globe, view), kind.nearPlane, kOccluderDepth).empty())
-                << kind.name << ", view " << i;
-            EXPECT_TRUE(plain.add(without, lookOf(without, view), kind.nearPlane).empty()) << kind.name;
-        }
-        if (kind.hasHorizon) {
-            EXPECT_LT(double(totals.reached), 0.9 * double(plain.reached)) << kind.name;
-        }
+        const LookTotals totals = totalsOf(kind, globe, 71, kind.nearPlane, kSides, kOccluderDepth);
+        const LookTotals plain = totalsOf(kind, without, 71, kind.nearPlane);
+        EXPECT_TRUE(!kind.hasHorizon || double(totals.reached) < 0.9 * double(plain.reached)) << kind.name;
     }
 }
 
 TEST(Projections, NearAndFarPlanesCullNothingBetweenThem) {
     CameraGlobe globe;
     for (const Kind& kind : kKinds) {
-        test::Random random(72);
-        LookTotals totals;
-        for (int i = 0; i < kViews; ++i) {
-            CullView view = viewOf(kind, random);
-            view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
-            EXPECT_TRUE(totals.add(globe, lookOf(globe, view), kind.nearPlane).empty()) << kind.name << ", view " << i;
-        }
+        const LookTotals totals = totalsOf(kind, globe, 72, kind.nearPlane, osg::CullSettings::VIEW_FRUSTUM_CULLING);
         EXPECT_LT(totals.reached, 1.6 * double(totals.seen) + 1.0 * kViews) << kind.name;
     }
 }

@@ -11,16 +11,16 @@
 #include <gtest/gtest.h>
 #include <osg/Texture2D>
 
+#include <TileFixture.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <tuple>
 
 namespace {
 
 using osgAnalyticBin::core::Ellipsoid;
-using osgAnalyticBin::core::Geodetic;
+using osgAnalyticBin::test::metresOutside;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
@@ -34,28 +34,13 @@ double sag(const LoadedTile& tile, double radius) {
     return radius * (1.0 - std::cos(0.5 * step));
 }
 
-/// Metres by which a point is outside the bin; at the axis there is no longitude.
-double outside(const osgAnalyticBin::AnalyticBin& bin, const glm::dvec3& ecef, const Ellipsoid& ellipsoid) {
-    const Geodetic p = ellipsoid.toGeodetic(ecef);
-    const double radius = ellipsoid.equatorialRadius();
-    const double axisDistance = std::hypot(ecef.x, ecef.y);
-    const auto beyond = [](const osgAnalyticBin::core::Interval& range, double value) {
-        return std::max({0.0, range.lower - value, value - range.upper});
-    };
-    const double half = 0.5 * bin.bin().longitude().width();
-    const double east = std::remainder(p.longitude - bin.bin().longitude().middle(), 2.0 * 180.0 * kDegree);
-    const double sideways = std::max(0.0, std::abs(east) - half) * axisDistance;
-    return std::max({beyond(bin.bin().altitude(), p.altitude), beyond(bin.bin().latitude(), p.latitude) * radius,
-                     std::min(sideways, axisDistance)});
-}
-
 // Of packed tiles: two steps of the start tiles' vertices.
 constexpr double kPackedMargin = 0.26;
 
 void checkHoldsMesh(const LoadedTile& tile, const Ellipsoid& ellipsoid) {
     const double allowed = tile.bin.margin() + 1e-7;
     double worst = 0.0;
-    for (const glm::dvec3& vertex : tile.vertices) worst = std::max(worst, outside(tile.bin, vertex, ellipsoid));
+    for (const glm::dvec3& vertex : tile.vertices) worst = std::max(worst, metresOutside(tile.bin, vertex, ellipsoid));
     const auto& triangles = dynamic_cast<osg::DrawElementsUShort&>(*tile.geometry->getPrimitiveSet(0));
     ASSERT_EQ(triangles.size() % 3, 0U);
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
@@ -63,7 +48,7 @@ void checkHoldsMesh(const LoadedTile& tile, const Ellipsoid& ellipsoid) {
         const glm::dvec3& b = tile.vertices.at(triangles[i + 1]);
         const glm::dvec3& c = tile.vertices.at(triangles[i + 2]);
         for (const glm::dvec3& p : {(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {
-            worst = std::max(worst, outside(tile.bin, p, ellipsoid));
+            worst = std::max(worst, metresOutside(tile.bin, p, ellipsoid));
         }
     }
     EXPECT_LE(worst, allowed) << nameOf(tile);
