@@ -19,7 +19,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <simgear/debug/logstream.hxx>
 #include <simgear/misc/ResourceManager.hxx>
 #include <simgear/misc/sg_path.hxx>

@@ -10,7 +10,6 @@
 #include <osg/Uniform>
 #include <osgViewer/GraphicsWindow>
 
-#include <cmath>
 #include <stdexcept>
 
 USE_GRAPHICSWINDOW()

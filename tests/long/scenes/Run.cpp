@@ -29,7 +29,6 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <iterator>
 #include <kit/CullFixture.h>

@@ -6,7 +6,6 @@
 #include "Meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -7,7 +7,6 @@
 #include <osg/TriangleIndexFunctor>
 
 #include <algorithm>
-#include <cmath>
 
 namespace osgAnalyticBin::test {
 

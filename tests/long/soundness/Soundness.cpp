@@ -24,8 +24,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::GeodeticBin;
 using core::GeodeticMapping;

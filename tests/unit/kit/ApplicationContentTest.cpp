@@ -21,7 +21,6 @@
 #include <osgUtil/RenderStage>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 #include <vector>

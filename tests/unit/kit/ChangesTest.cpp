@@ -15,7 +15,6 @@
 #include <osg/StateSet>
 
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <vector>
 

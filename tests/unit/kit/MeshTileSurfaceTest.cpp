@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test::surfaces {

@@ -20,13 +20,10 @@
 
 #include <array>
 #include <map>
-#include <optional>
 #include <support/Random.h>
 
 namespace osgAnalyticBin {
 namespace {
-
-using test::osgVector;
 
 using osg::Camera;
 using osg::CullSettings;

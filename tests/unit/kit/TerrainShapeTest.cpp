@@ -16,7 +16,6 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>

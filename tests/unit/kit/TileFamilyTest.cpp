@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <support/Random.h>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {

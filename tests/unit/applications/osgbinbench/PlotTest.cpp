@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::bench {

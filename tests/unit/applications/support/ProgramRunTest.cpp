@@ -10,7 +10,6 @@
 
 #include <new>
 #include <string>
-#include <vector>
 
 namespace osgAnalyticBin::support {
 namespace {

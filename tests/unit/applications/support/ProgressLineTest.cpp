@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <fcntl.h>
 #include <memory>
 #include <poll.h>
