@@ -65,17 +65,12 @@ struct AddedGlobe {
     unsigned int frame = 0;
 };
 
-TEST(NamedGlobe, StandsForACoordinateSystem) {
+TEST(NamedGlobe, StandsForACoordinateSystemAndOutlivesOtherMethods) {
     GlobeWithoutSystem plain;
     EXPECT_EQ(installBins(*plain.scene), 0u);
     ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     EXPECT_FALSE(plain.drawsAntipode()) << "no horizon";
     EXPECT_TRUE(plain.draws(*plain.tiles[19], MeshGlobe::fromAbove()));
-}
-
-TEST(NamedGlobe, OutlivesOtherMethods) {
-    GlobeWithoutSystem plain;
-    ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     CullOptions spheres = onEarth();
     spheres.method = Method::Sphere;
     EXPECT_EQ(setCullOptions(*plain.scene, spheres), 0u);
@@ -85,15 +80,6 @@ TEST(NamedGlobe, OutlivesOtherMethods) {
     removeBins(*plain.scene);
     EXPECT_TRUE(plain.drawsAntipode());
     EXPECT_EQ(plain.scene->getCullCallback(), nullptr);
-}
-
-TEST(AddedTiles, AreCulledByTheirBins) {
-    AddedGlobe globe;
-    const CullOptions options = onEarth(declaredHorizon());
-    EXPECT_EQ(installBins(*globe.scene, options), 0u);
-    globe.addAll();
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-    EXPECT_FALSE(globe.drawsAntipode());
 }
 
 TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {

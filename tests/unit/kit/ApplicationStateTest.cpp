@@ -6,7 +6,6 @@
 
 #include "ApplicationGlobe.h"
 
-#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
@@ -86,17 +85,6 @@ TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
     EXPECT_TRUE(globe.drawsAntipode());
     globe.tiles[19]->setNodeMask(~0u);
     EXPECT_FALSE(globe.drawsAntipode());
-}
-
-TEST(HoledGlobe, IsNotOneWithCallbacksThatPromiseToTraverse) {
-    MeshGlobe globe;
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::NodeCallback> callback = new VisitRecorder("tile", visited);
-    setTraversesAlways(*callback);
-    globe.tiles[19]->setCullCallback(callback);
-    installBins(*globe.root);
-    EXPECT_FALSE(globe.drawsAntipode());
-    EXPECT_EQ(visited.size(), 1u);
 }
 
 TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {

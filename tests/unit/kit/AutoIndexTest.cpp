@@ -131,15 +131,6 @@ TEST_F(AutoIndex, TilesAboveOneWithoutBoundsKeepTheDeclaredHeights) {
     }
 }
 
-TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    write(700.0, 2000.0);
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    EXPECT_NEAR(highOfRoot(), 2000.0, 1.0);
-}
-
 // A user has made that one with osgbinconv, and has not made it again since the database changed.
 TEST_F(AutoIndex, IsUsedTheNextTimeWhereOneBesideTheDatabaseIsOutOfDate) {
     open();

@@ -147,20 +147,6 @@ TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
     EXPECT_FALSE(statistics.covered());
 }
 
-TEST(TerrainOcclusion, NeedsRidgesThatTheCameraDraws) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
-    for (osg::Node* const node :
-         {static_cast<osg::Node*>(globe.row[2].get()), static_cast<osg::Node*>(drawableOf(*globe.row[2]))}) {
-        node->setNodeMask(2);
-        globe.visitor->setTraversalMask(1);
-        EXPECT_TRUE(globe.drawsFarTile()) << "another camera's";
-        globe.visitor->setTraversalMask(~0u);
-        EXPECT_FALSE(globe.drawsFarTile());
-        node->setNodeMask(~0u);
-    }
-}
-
 // More ways: tests/scenes/ridge-*.scene.
 TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
     RidgeGlobe globe;

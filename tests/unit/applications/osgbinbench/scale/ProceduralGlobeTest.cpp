@@ -3,19 +3,17 @@
 
 #include "ProceduralGlobe.h"
 
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osgDB/ReadFile>
 
 #include <TileFixture.h>
 #include <TileNode.h>
 #include <algorithm>
-#include <support/CapturedNotes.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::globe {
@@ -82,17 +80,6 @@ std::vector<TileId> tilesAtThePoles(int level) {
     return tiles;
 }
 
-// Pages in what is below a tile at the outermost or innermost rows, as deep as it goes.
-void followPoles(osg::Node& tile, int level, int deepest) {
-    auto* const paged = dynamic_cast<osg::PagedLOD*>(&tile);
-    if (!paged || level == deepest) return;
-    const osg::ref_ptr<osg::Node> below =
-        osgDB::readRefNodeFile(paged->getFileName(1), dynamic_cast<const osgDB::Options*>(paged->getDatabaseOptions()));
-    ASSERT_TRUE(below) << paged->getFileName(1);
-    // two of four: one in each row
-    for (const unsigned int child : {0U, 3U}) followPoles(*below->asGroup()->getChild(child), level + 1, deepest);
-}
-
 TEST(ProceduralGlobe, NeighboursShareTheirEdgesToTheLastBit) {
     const ProceduralGlobe globe(deepGlobe());
     test::Random random(8201);
@@ -131,21 +118,6 @@ TEST(ProceduralGlobe, BinsHoldEveryTriangle) {
     const ProceduralGlobe coarse(options);
     for (int level = 0; level <= options.levels; ++level)
         for (const TileId& tile : tilesAtThePoles(level)) expectBinHoldsTriangles(coarse, tile, options.cells);
-}
-
-// Tiles beside the poles were called larger than their stored bins, which hold them as the test above shows.
-TEST(ProceduralGlobe, CoarseTilesAtThePolesAreNoFalseBins) {
-    for (const int cells : {2, 4, 8}) {
-        GlobeOptions options;
-        options.levels = 9;
-        options.cells = cells;
-        const ProceduralGlobe globe(options);
-        const test::CapturedNotes notes;
-        const osg::ref_ptr<osg::Node> root = globe.root();
-        EXPECT_EQ(installBins(*root), 128U);
-        for (unsigned int tile : {0U, 7U, 15U, 16U, 112U, 127U}) followPoles(*root->asGroup()->getChild(tile), 0, 6);
-        EXPECT_EQ(notes.count("larger than the bin stored"), 0U) << cells;
-    }
 }
 
 TEST(ProceduralGlobe, BinsHoldThoseOfTheChildren) {
