@@ -14,7 +14,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -24,102 +23,42 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-// Of one file's record; more is damage.
-constexpr std::uint32_t kMostBytes = std::uint32_t{1} << 28;
-
-constexpr const char* kHead = "osgBinsPart 4\n";
+// To be raised when a record's members change.
+constexpr const char* kHead = "osgBinsPart 5\n";
 
 /// One description of the bytes for both directions.
-template <class Stream, class Tile>
-void passTile(Stream& s, Tile& tile) {
-    s.bin(tile.surface.bin);
-    for (auto& low : tile.surface.edgeLow) s.number(low);
-    s.number(tile.surface.skirt);
-    s.flag(tile.surface.isScalable);
-    s.flag(tile.surface.isInMap);
-    s.number(tile.fingerprint);
-    s.number(tile.parent);
-}
-
-template <class Stream, class Place>
-void passPlace(Stream& s, Place& place) {
-    s.number(place.equatorialRadius);
-    s.number(place.polarRadius);
-    s.flag(place.isProjected);
-    for (auto& number : place.localToEcef) s.number(number);
-    s.flag(place.isBelowTile);
-    s.number(place.sampleRatio);
-}
-
-template <class Stream, class Link>
-void passLink(Stream& s, Link& link) {
-    s.text(link.file);
-    s.number(link.tile);
-    passPlace(s, link.place);
-}
-
 template <class Stream, class Record>
 void passRecord(Stream& s, Record& record) {
-    s.text(record.file);
-    s.number(record.stamp.size);
-    s.number(record.stamp.time);
-    s.number(record.stamp.nanoseconds);
-    passPlace(s, record.place);
-    s.flag(record.isRead);
-    s.flag(record.hasOtherContent);
-    s.count(record.tiles);
-    for (auto& tile : record.tiles) passTile(s, tile);
+    s.list(record.file);
+    s.value(record.stamp);
+    s.value(record.place);
+    s.value(record.isRead);
+    s.value(record.hasOtherContent);
+    s.list(record.tiles);
     s.count(record.links);
-    for (auto& link : record.links) passLink(s, link);
-}
-
-bool isConsistent(const FileRecord& record) {
-    const auto tiles = static_cast<std::int32_t>(record.tiles.size());
-    for (std::int32_t i = 0; i < tiles; ++i) {
-        const std::int32_t parent = record.tiles[static_cast<std::size_t>(i)].parent;
-        if (parent < -1 || parent >= i) return false;
+    for (auto& link : record.links) {
+        s.list(link.file);
+        s.value(link.tile);
+        s.value(link.place);
     }
-    for (const FileLink& link : record.links) {
-        if (link.tile < -1 || link.tile >= tiles) return false;
-    }
-    return true;
-}
-
-/// A record as bytes, little endian, bit for bit the same when read back.
-std::string bytesOf(const FileRecord& record) {
-    osgAnalyticBin::RecordWriter writer;
-    passRecord(writer, record);
-    return std::move(writer.bytes);
-}
-
-/// Returns: nullopt when the bytes are no record.
-std::optional<FileRecord> recordFrom(std::string_view bytes) {
-    try {
-        osgAnalyticBin::RecordReader reader(bytes);
-        FileRecord record;
-        passRecord(reader, record);
-        if (reader.isAtEnd() && isConsistent(record)) return record;
-    } catch (const std::out_of_range&) {
-    }
-    return std::nullopt;
-}
-
-// Returns: false at the end of what is there.
-bool readBytes(std::istream& in, std::string& bytes) {
-    return static_cast<bool>(in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())));
 }
 
 /// Returns: nullopt at the end of what is whole.
 std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
     std::uint32_t size = 0;
-    std::string bytes(sizeof size, '\0');
-    if (!readBytes(in, bytes)) return std::nullopt;
-    osgAnalyticBin::RecordReader(bytes).number(size);
-    if (size > most || size > kMostBytes) return std::nullopt;
-    bytes.resize(size);
-    if (!readBytes(in, bytes)) return std::nullopt;
+    if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > most) return std::nullopt;
+    std::string bytes(size, '\0');
+    if (!in.read(bytes.data(), size)) return std::nullopt;
     const auto whole = osgAnalyticBin::support::wholeBytes(bytes);
-    return whole ? recordFrom(*whole) : std::nullopt;
+    if (!whole) return std::nullopt;
+    try {
+        FileRecord record;
+        osgAnalyticBin::RecordReader reader(*whole);
+        passRecord(reader, record);
+        if (reader.isAtEnd()) return record;
+    } catch (const std::out_of_range&) {
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -143,8 +82,9 @@ void PartFile::load() {
 }
 
 void PartFile::append(const FileRecord& record) {
-    osgAnalyticBin::RecordWriter out;
-    out.text(osgAnalyticBin::support::withChecksum(bytesOf(record)));
+    osgAnalyticBin::RecordWriter writer, out;
+    passRecord(writer, record);
+    out.list(osgAnalyticBin::support::withChecksum(std::move(writer.bytes)));
     write(out.bytes);
 }
 

@@ -31,18 +31,10 @@ namespace {
 /// One description of the bytes for both directions, the grid aside.
 template <class Stream, class Record>
 void passRecord(Stream& s, Record& tile) {
-    auto& tally = tile.tally;
-    for (auto* number : {&tile.range.lower, &tile.range.upper, &tally.tiles, &tally.deepest, &tally.files, &tally.bytes,
-                         &tally.posts, &tally.filled, &tally.missing}) {
-        s.number(*number);
-    }
-    for (auto* extreme : {&tally.lowest, &tally.highest}) {
-        s.number(extreme->metres);
-        s.number(extreme->position.latitudeDeg);
-        s.number(extreme->position.longitudeDeg);
-    }
-    s.bin(tile.below);
-    s.number(tile.checksum);
+    s.value(tile.range);
+    s.value(tile.tally);
+    s.value(tile.below);
+    s.value(tile.checksum);
 }
 
 void moveTo(const std::string& from, const std::string& to) {
@@ -161,7 +153,7 @@ std::size_t DatabaseFolder::doneCount() const {
 
 void DatabaseFolder::keep(const SurveyedTile& tile) const {
     RecordWriter out;
-    out.text(packed(tile.grid));
+    out.list(packed(tile.grid));
     passRecord(out, tile);
     const std::string file = recordOf(tile.id);
     support::makeFolder(fs::path(file).parent_path().string());
@@ -176,8 +168,9 @@ std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileL
     std::string grid;
     try {
         RecordReader in(*whole);
-        in.text(grid);
+        in.list(grid);
         passRecord(in, found);
+        if (!in.isAtEnd()) return std::nullopt;
     } catch (const std::out_of_range&) {
         return std::nullopt;
     }
