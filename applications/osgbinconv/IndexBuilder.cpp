@@ -1,15 +1,23 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Checksum.h"
 #include "Commands.h"
+#include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
-#include "PartFile.h"
 #include "Progress.h"
+#include "RecordStream.h"
 
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace osgbinconv {
@@ -18,6 +26,116 @@ using osgAnalyticBin::BinIndex;
 using osgAnalyticBin::support::Failure;
 
 namespace {
+
+// To be raised when a record's members change.
+constexpr const char* kHead = "osgBinsPart 5\n";
+
+/// One description of the bytes for both directions.
+template <class Stream, class Record>
+void passRecord(Stream& s, Record& record) {
+    s.list(record.file);
+    s.value(record.stamp);
+    s.value(record.place);
+    s.value(record.isRead);
+    s.value(record.hasOtherContent);
+    s.list(record.tiles);
+    s.count(record.links);
+    for (auto& link : record.links) {
+        s.list(link.file);
+        s.value(link.tile);
+        s.value(link.place);
+    }
+}
+
+/// Returns: nullopt at the end of what is whole.
+std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
+    std::uint32_t size = 0;
+    if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > most) return std::nullopt;
+    std::string bytes(size, '\0');
+    if (!in.read(bytes.data(), size)) return std::nullopt;
+    const auto whole = osgAnalyticBin::support::wholeBytes(bytes);
+    if (!whole) return std::nullopt;
+    try {
+        FileRecord record;
+        osgAnalyticBin::RecordReader reader(*whole);
+        passRecord(reader, record);
+        if (reader.isAtEnd()) return record;
+    } catch (const std::out_of_range&) {
+    }
+    return std::nullopt;
+}
+
+/// The records of an index that is being made, "earth.ive.bins.part": appended one by one, each with its checksum, so
+/// that a run that was killed goes on where it ended, or a later one reads only what has changed. Each record says of
+/// which file it is; whether that has changed is the reader's to see. Locked against a second program. What cannot be
+/// read or written throws Failure.
+class PartFile final {
+public:
+    /// Opens the file and takes what is whole in it.
+    explicit PartFile(const std::string& path) : _path(path), _lock(path, "osgbinconv", path, O_APPEND) {
+        const off_t end = ::lseek(_lock.handle(), 0, SEEK_END);
+        std::ifstream in(_path, std::ios::binary);
+        std::string found(std::strlen(kHead), '\0');
+        in.read(found.data(), static_cast<std::streamsize>(found.size()));
+        if (!in || found != kHead) {
+            clear();
+            return;
+        }
+        off_t whole = in.tellg();
+        while (auto record = readRecord(in, static_cast<std::uint64_t>(end - whole))) {
+            _records.push_back(std::move(*record));
+            whole = in.tellg();
+        }
+        if (::ftruncate(_lock.handle(), whole) != 0) fail();
+    }
+
+    /// What an earlier run has left; to be called once.
+    [[nodiscard]] std::vector<FileRecord> takeRecords() { return std::move(_records); }
+
+    /// Not to be called by two threads at once.
+    void append(const FileRecord& record) {
+        osgAnalyticBin::RecordWriter writer, out;
+        passRecord(writer, record);
+        out.list(osgAnalyticBin::support::withChecksum(std::move(writer.bytes)));
+        write(out.bytes);
+    }
+
+    /// Deletes the file: nobody needs it any more.
+    void remove() { _lock.remove(); }
+
+    /// Has just these records from here on.
+    void keepOnly(const FileRecords& records) {
+        clear();
+        for (const auto& record : records) append(record.second);
+    }
+
+    /// Whether the records could not be written, for want of room.
+    [[nodiscard]] bool hasFailed() const { return _hasFailed; }
+
+private:
+    void clear() {
+        if (::ftruncate(_lock.handle(), 0) != 0) fail();
+        write(kHead);
+    }
+    void write(const std::string& bytes) {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t count = ::write(_lock.handle(), bytes.data() + done, bytes.size() - done);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) fail();
+            done += static_cast<std::size_t>(count);
+        }
+    }
+    [[noreturn]] void fail() {
+        _hasFailed = true;
+        throw Failure("cannot write \"" + _path + "\": " + std::strerror(errno) +
+                      "; make room, or make the folder writable");
+    }
+
+    const std::string _path;
+    const osgAnalyticBin::support::LockedFile _lock;
+    bool _hasFailed = false;
+    std::vector<FileRecord> _records;
+};
 
 /// The index is going to be replaced: it must be one.
 void requireNothingForeign(const std::string& path) {
