@@ -3,12 +3,13 @@
 
 #pragma once
 
-#include "MethodFigures.h"
+#include "Table.h"
 
 #include <array>
 
 namespace osgAnalyticBin::bench {
 
+using report::allOf;
 using report::MethodFigures;
 using report::PathGroup;
 using report::pathGroupsOf;

@@ -4,13 +4,17 @@
 #include "Output.h"
 
 #include "CullMethod.h"
+#include "DiagramScripts.h"
 #include "Interruption.h"
 #include "Table.h"
+#include "TextFile.h"
 #include "ThreadingName.h"
 
 #include <osg/Version>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <ostream>
 
 namespace osgAnalyticBin::bench {
@@ -38,12 +42,6 @@ Json headOf(const Settings& settings, const char* mode) {
     json["osg"] = osgGetVersion();
     if (support::stopRequested) json["interrupted"] = true;
     return json;
-}
-
-Json sumsOf(const std::vector<MethodFigures>& methods) {
-    Json sums;
-    for (const MethodFigures& method : methods) sums[method.method] = sumOf(method);
-    return sums;
 }
 
 Json sumsOf(const std::vector<MethodFigures>& methods, const PathGroup& group) {
@@ -97,7 +95,7 @@ TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<Me
     std::vector<std::string> columns{"truth_tiles",      "drawn_tiles",     "drawn/truth",
                                      "triangles",        "files_requested", "false_culls",
                                      "differing_pixels", kCullColumn,       kCullColdColumn};
-    Json first = sumsOf(methods);
+    Json first = sumsOf(methods, allOf(methods.front()));
     addTimesOverOracle(first);
     for (const char* const title : {"over_oracle", "cold_over_oracle"})
         if (first.front().contains(title)) columns.emplace_back(title);
@@ -140,7 +138,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
     const bool isFlight = poses.empty();
     Json json = headOf(settings, !isFlight ? "poses" : settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
     if (!isFlight) json["poses"] = poses.size();
-    json["methods"] = sumsOf(methods);
+    json["methods"] = sumsOf(methods, allOf(methods.front()));
     for (const PathGroup& group : pathGroupsOf(poses)) {
         Json& path = json["paths"][group.name];
         path["poses"] = group.poses.size();
@@ -153,7 +151,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
 }
 
 std::vector<TextTable> tablesOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
-    const Json sums = sumsOf(methods);
+    const Json sums = sumsOf(methods, allOf(methods.front()));
     Json shown = sums;
     addTimesOverOracle(shown);
     std::vector<TextTable> tables{poses.empty() ? tableOf("paging live", shown, 4)
@@ -169,6 +167,194 @@ void print(std::ostream& output, const std::vector<TextTable>& tables) {
         if (&table != &tables.front()) output << '\n';
         table.print(output);
     }
+}
+
+namespace {
+
+using report::Diagram;
+using Methods = std::vector<MethodFigures>;
+
+// Characters that stand side by side below a diagram.
+constexpr std::size_t kLabelRoom = 110;
+
+/// Bars for each path, one a method.
+struct BarChart {
+    const char* name;
+    const char* heading;
+    const char* label;
+    const char* numberFormat;
+    bool isRatio;
+    bool hasSpread;
+    double (*value)(const Json& sum, double poses);
+};
+
+constexpr std::array<BarChart, 3> kBarCharts{{
+    {"drawn", "Tiles drawn for each tile needed, sums over the poses of a path",
+     "tiles drawn / tiles needed (logarithmic)", "%.2f", true, false,
+     [](const Json& sum, double) {
+         const auto needed = sum["truth_tiles"].get<double>();
+         return needed > 0.0 ? sum["drawn_tiles"].get<double>() / needed : std::nan("");
+     }},
+    {"files", "Files requested on arrival at a pose, mean over the poses of a path", "files a pose", "%.0f", false,
+     false, [](const Json& sum, double poses) { return sum["files_requested"].get<double>() / poses; }},
+    {"cull", "Time of a cull traversal, mean over the poses of a path; whiskers: half the quartile spread either way",
+     "milliseconds a pose", "%.3f", false, true,
+     [](const Json& sum, double poses) { return sum[kCullColumn].get<double>() / poses; }},
+}};
+
+Json rowOf(const BarChart& chart, const PathGroup& group, const Methods& methods) {
+    Json row{{"path", group.name}};
+    const auto poses = static_cast<double>(group.poses.size());
+    for (const MethodFigures& method : methods) {
+        const Json sum = sumOf(method, group);
+        row[method.method] = chart.value(sum, poses);
+        if (chart.hasSpread) row[method.method + " half spread"] = sum["cull_spread_ms"].get<double>() / 2.0 / poses;
+    }
+    return row;
+}
+
+// What the script is told beside its data.
+std::string settingsOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
+    const auto set = [](const char* variable, const std::string& text) {
+        return std::string(variable) + " = \"" + text + "\"\n";
+    };
+    std::string names, tics;
+    for (const MethodFigures& method : methods) names += (names.empty() ? "" : " ") + method.method;
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        length = std::max(length, groups[i].name.size() + 2);
+        tics += (i > 0 ? ", \"" : "\"") + groups[i].name + "\" " + std::to_string(i);
+    }
+    const char* const turned = length * groups.size() > kLabelRoom ? "rotate by 40 right" : "";
+    return set("names", names) + set("turned", turned) + "tics = '" + tics + "'\n" + set("heading", chart.heading) +
+           set("label", chart.label) + set("numberFormat", chart.numberFormat) +
+           "isRatio = " + std::to_string(chart.isRatio) + "\nhasSpread = " + std::to_string(chart.hasSpread) + "\n";
+}
+
+}  // namespace
+
+std::vector<Diagram> diagramsOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+    Methods shown = methods;
+    const bool isAlone = methods.size() == 1;
+    const auto isReference = [](const MethodFigures& method) { return method.method == kReferenceMethod; };
+    if (!isAlone) shown.erase(std::remove_if(shown.begin(), shown.end(), isReference), shown.end());
+    const std::vector<PathGroup> groups = pathGroupsOf(poses);
+    std::vector<Diagram> diagrams;
+    for (const BarChart& chart : kBarCharts) {
+        std::vector<Json> rows;
+        for (const PathGroup& group : groups) rows.push_back(rowOf(chart, group, shown));
+        diagrams.push_back({chart.name, report::csvOf(rows),
+                            report::drawnTwice(chart.name, "size 1000,560 noenhanced font 'sans,12'",
+                                               settingsOf(chart, groups, shown) + kBarsScript)});
+    }
+    return diagrams;
+}
+
+namespace {
+
+using support::withDecimals;
+
+// A gain below this share is none.
+constexpr double kLeastGain = 0.05;
+
+/// The figures of bins, and the better of what they stand in place of.
+struct Comparison {
+    double bins = 0.0;
+    double other = 0.0;
+    std::string name;  // of the other
+
+    [[nodiscard]] double ratio() const { return other > 0.0 ? bins / other : 1.0; }
+    [[nodiscard]] bool isGain() const { return ratio() < 1.0 - kLeastGain; }
+    [[nodiscard]] bool isLoss() const { return ratio() > 1.0 + kLeastGain; }
+};
+
+const MethodFigures* methodNamed(const std::vector<MethodFigures>& methods, const std::string& name) {
+    const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.method == name; });
+    return found == methods.end() ? nullptr : &*found;
+}
+
+constexpr const char* kTiles = "drawn_tiles";
+
+/// Bins against the better of two methods, over some poses.
+class Judge {
+public:
+    explicit Judge(const std::vector<MethodFigures>& methods)
+        : _bins(methodNamed(methods, kDefaultMethod)),
+          _spheres(methodNamed(methods, "sphere")),
+          _clusters(methodNamed(methods, "cluster")) {}
+
+    [[nodiscard]] bool isPossible() const { return _bins && (_spheres || _clusters); }
+
+    [[nodiscard]] Comparison compare(const char* column, const PathGroup& poses) const {
+        const auto value = [&](const MethodFigures& method) { return sumOf(method, poses)[column].get<double>(); };
+        Comparison better{value(*_bins), 0.0, {}};
+        const auto consider = [&](const MethodFigures* method, const char* name) {
+            if (!method) return;
+            const double other = value(*method);
+            if (better.name.empty() || other < better.other) {
+                better.other = other;
+                better.name = name;
+            }
+        };
+        consider(_spheres, "spheres");
+        consider(_clusters, "cluster callbacks");
+        return better;
+    }
+
+private:
+    const MethodFigures* _bins;
+    const MethodFigures* _spheres;
+    const MethodFigures* _clusters;
+};
+
+std::string times(const Comparison& comparison) {
+    return withDecimals(comparison.ratio(), 2) + " times";
+}
+
+std::string worth(const Comparison& tiles, const Comparison& time) {
+    if (time.isLoss() && !tiles.isGain()) return "Bins are not worth it for this database";
+    if (!time.isGain() && !tiles.isGain()) return "Bins change little for this database";
+    return time.isLoss() ? "Bins are worth it for this database where drawing takes longer than culling"
+                         : "Bins are worth it for this database";
+}
+
+std::string tilesSentence(const Comparison& tiles, const Comparison& time) {
+    return worth(tiles, time) + ": they draw " + withDecimals(tiles.bins, 0) + " tiles where " + tiles.name + " draw " +
+           withDecimals(tiles.other, 0) + " (" + times(tiles) + ").";
+}
+
+std::string costSentence(const Comparison& files, const Comparison& time, const Comparison& cold, std::size_t poses) {
+    const auto perPose = [&](double ms) { return withDecimals(ms / static_cast<double>(poses), 3) + " ms"; };
+    // --flush 0 leaves it out
+    const std::string coldTimes = cold.other > 0.0 ? ", and " + times(cold) + " with cold caches" : "";
+    return "They read " + withDecimals(files.bins, 0) + " files where " + files.name + " read " +
+           withDecimals(files.other, 0) + " (" + times(files) + "), and a cull takes " + perPose(time.bins) +
+           " where it takes " + perPose(time.other) + " with " + time.name + " (" + times(time) + coldTimes + ").";
+}
+
+std::string whereSentence(const Judge& judge, const std::vector<PathGroup>& paths) {
+    std::string where;
+    for (const PathGroup& path : paths) {
+        const Comparison tiles = judge.compare(kTiles, path), time = judge.compare(kCullColumn, path);
+        if (tiles.isGain() && !time.isLoss()) continue;
+        if (!tiles.isLoss() && time.isGain()) continue;
+        where += (where.empty() ? "" : ", ") + path.name + " (" + withDecimals(tiles.ratio(), 2) +
+                 " times the tiles, " + withDecimals(time.ratio(), 2) + " times the cull time)";
+    }
+    return where.empty() ? "They help on every path that was flown."
+                         : "They do not help, or cost time, here: " + where + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> adviceOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+    const Judge judge(methods);
+    if (!judge.isPossible()) return {};
+    const PathGroup all = allOf(methods.front());
+    const Comparison tiles = judge.compare(kTiles, all), files = judge.compare("files_requested", all),
+                     time = judge.compare(kCullColumn, all);
+    return {tilesSentence(tiles, time), costSentence(files, time, judge.compare(kCullColdColumn, all), poses.size()),
+            whereSentence(judge, pathGroupsOf(poses))};
 }
 
 }  // namespace osgAnalyticBin::bench

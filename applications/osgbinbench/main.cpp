@@ -12,7 +12,7 @@
 #include "PoseBench.h"
 #include "ProgramRun.h"
 #include "Report.h"
-#include "Series.h"
+#include "ScaleCommand.h"
 #include "TextFile.h"
 
 #include <osg/Notify>
@@ -79,11 +79,9 @@ std::vector<Picture> chosenPictures(const std::vector<std::string>& poses, const
     return chosen;
 }
 
-void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& methods, std::vector<CameraPose> path,
-                    FileWatch& watch) {
+void tellOfPoses(const Settings& settings, std::vector<CameraPose> path, const PoseFigures& measured) {
+    const std::vector<MethodFigures>& figures = measured.methods;
     const std::size_t planned = path.size();
-    PoseBench bench(settings, methods, watch);
-    const auto figures = bench.run(path);
     path.resize(figures.front().rows.size());
     const std::vector<std::string> poses = namesOf(path);
     write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures));
@@ -97,7 +95,7 @@ void measureAtPoses(const Settings& settings, const std::vector<CullMethod>& met
     report.diagrams = diagramsOf(poses, figures);
     if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, report.diagrams);
     if (settings.report.empty()) return;
-    report.pictures = chosenPictures(poses, bench.pictures());
+    report.pictures = chosenPictures(poses, measured.pictures);
     writeFile(settings.report, report.html());
     std::cout << "\nThe same with diagrams and pictures: " << settings.report << std::endl;
 }
@@ -112,7 +110,7 @@ void measure(const Settings& settings) {
     if (settings.jumps) return tell(settings, jump(settings, methods, path, *watch));
     if (settings.frames > 0)
         return tell(settings, flyContinuously(settings, methods, continuousPath(path, settings.frames), *watch));
-    measureAtPoses(settings, methods, path, *watch);
+    tellOfPoses(settings, path, measureAtPoses(settings, methods, path, *watch));
 }
 
 ExitCode run(int argc, char** argv) {

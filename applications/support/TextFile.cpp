@@ -40,12 +40,6 @@ void makeFolder(const std::string& folder) {
     if (problem) throw Failure("cannot create \"" + folder + "\": " + problem.message() + "; choose another folder");
 }
 
-void makeFolder(const char* option, const std::string& folder) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (problem) throw Failure(std::string(option) + ": folder " + folder + " cannot be made");
-}
-
 std::string withDecimals(double value, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);

@@ -24,9 +24,6 @@ void requireFolderOf(const char* option, const std::string& file);
 /// Makes a folder, and those above it, unless it is there. Throws: Failure.
 void makeFolder(const std::string& folder);
 
-/// The same of one that an option names, unless it is there. Throws: Failure.
-void makeFolder(const char* option, const std::string& folder);
-
 /// The value with so many decimals.
 [[nodiscard]] std::string withDecimals(double value, int decimals);
 

@@ -27,7 +27,7 @@ std::string quotedForShell(const std::string& text) {
 void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
     namespace fs = std::filesystem;
     constexpr int kNoProgram = 127;  // as the shell says it
-    support::makeFolder("--plot", folder);
+    support::makeFolder(folder);
     for (const Diagram& diagram : diagrams) {
         support::writeFile((fs::path(folder) / (diagram.name + ".csv")).string(), diagram.data);
         support::writeFile((fs::path(folder) / (diagram.name + ".gp")).string(), diagram.script);

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "MethodFigures.h"
 #include "ProgramRun.h"
+#include "Table.h"
 
 #include <iosfwd>
 #include <string>
