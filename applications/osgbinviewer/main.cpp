@@ -136,7 +136,7 @@ ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, v
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setRealizeOperation(new flight::WithoutAnisotropy);
     realize(viewer);
-    viewer::Steps(viewer, spy, poses).run(settings.steps);
+    viewer::runSteps(viewer, spy, poses, settings.steps);
     return kSucceeded;
 }
 
