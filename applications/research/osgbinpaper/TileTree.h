@@ -3,13 +3,81 @@
 
 #pragma once
 
-#include "Methods.h"
-#include "Witness.h"
+#include "BoxBins.h"
+#include "Camera.h"
+#include "ComparisonBins.h"
+#include "FrustumHull.h"
 
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
+
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::paper {
+
+/// What a tile is tested by. `Box`: the box along the axes of ECEF, another reading of "eight corners", and a sound
+/// one. `Hull`: near to the truth: the exact bin, and what is beyond a face of it or a parting plane of the frustum.
+enum class Method : std::size_t { Box, Corners, Paper, Quadratic, Exact, Hull };
+inline constexpr std::size_t kMethods = 6;
+inline constexpr std::array<const char*, kMethods> kMethodNames{"box",       "corners", "paper",
+                                                                "quadratic", "exact",   "hull"};
+
+[[nodiscard]] constexpr std::size_t indexOf(Method method) noexcept {
+    return static_cast<std::size_t>(method);
+}
+
+/// The planes of a frustum and what the search for its hull needs; made once per camera.
+struct Frustum {
+    explicit Frustum(const Camera& camera) noexcept;
+
+    core::PlaneSet planes;
+    hull::FrustumHull hull;
+};
+
+/// A tile as every method has it.
+struct TileBins {
+    TileBins(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin);
+
+    /// Where the tile lies with respect to the frustum.
+    [[nodiscard]] core::Side classify(Method method, const Frustum& frustum) const noexcept;
+    /// With respect to one plane. Requires: another method than Hull.
+    [[nodiscard]] core::Side classify(Method method, const core::Plane& plane) const noexcept;
+
+    rivals::BoxBin box;
+    rivals::CornersBin corners;
+    rivals::PaperBin paper;
+    core::QuadraticOrExact quadratic;
+    core::ExactGeodeticBin exact;
+    hull::ReverseBin reverse;
+
+private:
+    [[nodiscard]] core::Side classify(Method method, const core::PlaneSet& planes,
+                                      core::PlaneMask& undecided) const noexcept;
+};
+
+/// A point of a tile that is inside a frustum: the proof that the tile must not be culled.
+struct Witness {
+    core::Geodetic position;
+    double depth = 0.0;  // metres from the nearest side of the frustum
+};
+
+/// The position at shares, from 0 to 1, of a bin's latitudes, longitudes and altitudes.
+[[nodiscard]] core::Geodetic positionIn(const core::GeodeticBin& bin, const glm::dvec3& shares) noexcept;
+
+/// Looks for the point of the bin that is deepest inside the frustum: a grid of samples, then ever smaller steps from
+/// the best.
+/// Returns: nullopt when no sample is inside; a thin piece of the bin may have been missed.
+[[nodiscard]] std::optional<Witness> findWitness(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
+                                                 const Camera& camera);
+
+/// The same on the terrain itself, and only where the globe does not hide it from the eye.
+[[nodiscard]] std::optional<Witness> findTerrainWitness(Terrain& terrain, const core::GeodeticBin& bin,
+                                                        const Camera& camera);
 
 /// A tile of the quadtree as a camera's level of detail cuts it.
 struct TreeTile {
