@@ -11,12 +11,15 @@
 #include "TileFiles.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -63,6 +66,30 @@ std::string whatIsKept(const DatabaseFolder& folder, std::size_t parts) {
 std::string interruption(const DatabaseFolder& folder, std::size_t parts) {
     const std::string kept = whatIsKept(folder, parts);
     return "interrupted" + (kept.empty() ? "; nothing was left behind" : kept);
+}
+
+std::string placeOf(const Tally::Extreme& extreme) {
+    std::ostringstream out;
+    const double longitude = std::remainder(extreme.position.longitudeDeg, 360.0);
+    out << std::fixed << std::setprecision(1) << extreme.metres << " m (" << std::setprecision(4)
+        << std::abs(extreme.position.latitudeDeg) << (extreme.position.latitudeDeg < 0.0 ? " S, " : " N, ")
+        << std::abs(longitude) << (longitude < 0.0 ? " W)" : " E)");
+    return out.str();
+}
+
+/// Says what was built, in lines, and warns where data is missing. `seconds`: the time that it took.
+void tell(const Tally& tally, const std::string& name, int startLevel, double seconds) {
+    std::cout << std::fixed << std::setprecision(0) << name << ": " << tally.tiles << " tiles in levels " << startLevel
+              << " to " << tally.deepest << ", " << tally.files << " files, " << std::setprecision(1)
+              << std::ldexp(tally.bytes, -20) << " MiB, " << seconds << " s";
+    if (tally.missing < tally.posts)
+        std::cout << "\nheights from " << placeOf(tally.lowest) << " to " << placeOf(tally.highest);
+    std::cout << std::setprecision(0) << "; of " << tally.posts << " posts, " << tally.filled
+              << " are filled voids and " << tally.missing << " are at 0 m without data" << std::endl;
+    if (tally.missing == 0.0) return;
+    std::cerr << "osgbindem: warning: no raster has data for " << std::fixed << std::setprecision(0) << tally.missing
+              << " of " << tally.posts
+              << " posts, which are at 0 m; add a raster below, or build a part of the earth with -te" << std::endl;
 }
 
 /// The three times at which all ranks wait for each other: when the first one has prepared the folder, when all parts
@@ -177,8 +204,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
         ++tally.files;
         tally.bytes += static_cast<double>(root.size());
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-        std::cout << tally.text(settings.output, layout.startLevel(), time.count()) << std::endl;
-        if (!tally.warning().empty()) std::cerr << tally.warning() << std::endl;
+        tell(tally, settings.output, layout.startLevel(), time.count());
     } catch (const Interrupted&) {
         throw Interrupted(interruption(folder, plan.size()));
     } catch (const Failure& failure) {

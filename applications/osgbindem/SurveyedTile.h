@@ -9,9 +9,9 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <string>
 
 namespace osgbindem {
 
@@ -38,12 +38,17 @@ struct Tally {
         if (metres < lowest.metres) lowest = {metres, position};
         if (metres > highest.metres) highest = {metres, position};
     }
-    void add(const Tally& other) noexcept;
-
-    /// Lines for the user, without the last line's end. `seconds`: the time that it took.
-    [[nodiscard]] std::string text(const std::string& name, int startLevel, double seconds) const;
-    /// A warning; empty where no data is missing.
-    [[nodiscard]] std::string warning() const;
+    void add(const Tally& other) noexcept {
+        tiles += other.tiles;
+        deepest = std::max(deepest, other.deepest);
+        files += other.files;
+        bytes += other.bytes;
+        posts += other.posts;
+        filled += other.filled;
+        missing += other.missing;
+        if (other.lowest.metres < lowest.metres) lowest = other.lowest;
+        if (other.highest.metres > highest.metres) highest = other.highest;
+    }
 };
 
 /// A tile with everything below it in files: what its mesh and the tiles above need of it.
