@@ -48,23 +48,21 @@ void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int hel
 
 Settings settingsFrom(osg::ArgumentParser& arguments) {
     Settings settings;
+    const auto readLast = [&arguments](const char* name, auto& value) {
+        while (arguments.read(name, value)) {
+        }
+    };
     std::string text;
-    while (arguments.read("--options", text)) {
-    }
+    readLast("--options", text);
     std::string error;
     const auto options = cullOptionsFromText(text, error);
     if (!options) throw support::UsageError("--options: " + error);
     settings.cullOptions = *options;
-    while (arguments.read("--record", settings.record)) {
-    }
-    while (arguments.read("--poses", settings.poses)) {
-    }
-    while (arguments.read("--steps", settings.steps)) {
-    }
-    while (arguments.read("--speed", settings.speed)) {
-    }
-    while (arguments.read("--traffic", settings.traffic)) {
-    }
+    readLast("--record", settings.record);
+    readLast("--poses", settings.poses);
+    readLast("--steps", settings.steps);
+    readLast("--speed", settings.speed);
+    readLast("--traffic", settings.traffic);
     std::string path;
     while (arguments.read("-p", path)) settings.animationPaths.push_back(path);
     for (int i = 1; i < arguments.argc(); ++i) {

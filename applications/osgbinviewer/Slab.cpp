@@ -3,6 +3,7 @@
 
 #include "Slab.h"
 
+#include "GlmBridge.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -36,58 +37,47 @@ int stepsOf(const core::Interval& angles) {
 // Maps the unit box [-1, 1]^3 to ECEF.
 using Surface = std::function<glm::dvec3(const glm::dvec3& unit)>;
 
-class Builder {
-public:
-    Builder(const Surface& surface, const std::array<int, 3>& steps) : _surface(surface), _steps(steps) {
-        const glm::dvec3 center = surface(glm::dvec3(0.0));
-        _mesh.origin.set(center.x, center.y, center.z);
-        for (int fixed = 0; fixed < 3; ++fixed)
-            for (const double side : {-1.0, 1.0}) addFace(fixed, side);
+// The face where one parameter is -1 or 1, counterclockwise from outside: latitude, longitude and altitude are a
+// left-handed frame. And two of its sides, so that all faces together have each edge of the box once.
+void addFace(const Surface& surface, const std::array<int, 3>& steps, int fixed, double side, SlabMesh& mesh) {
+    const auto unitAt = [&](int axis, int step) { return 2.0 * step / steps[std::size_t(axis)] - 1.0; };
+    const int u = (fixed + 1) % 3;
+    const int v = (fixed + 2) % 3;
+    const int columns = steps[std::size_t(u)];
+    const int rows = steps[std::size_t(v)];
+    const auto first = static_cast<unsigned int>(mesh.vertices.size());
+    for (int j = 0; j <= rows; ++j) {
+        for (int i = 0; i <= columns; ++i) {
+            glm::dvec3 unit;
+            unit[fixed] = side;
+            unit[u] = unitAt(u, i);
+            unit[v] = unitAt(v, j);
+            mesh.vertices.emplace_back(toOsg(surface(unit)) - mesh.origin);
+        }
     }
-
-    [[nodiscard]] const SlabMesh& mesh() const { return _mesh; }
-
-private:
-    [[nodiscard]] double unitAt(int axis, int step) const { return 2.0 * step / _steps[std::size_t(axis)] - 1.0; }
-
-    // The face where one parameter is -1 or 1, counterclockwise from outside: latitude, longitude and altitude are a
-    // left-handed frame. And two of its sides, so that all faces together have each edge of the box once.
-    void addFace(int fixed, double side) {
-        const int u = (fixed + 1) % 3;
-        const int v = (fixed + 2) % 3;
-        const int columns = _steps[std::size_t(u)];
-        const int rows = _steps[std::size_t(v)];
-        const auto first = static_cast<unsigned int>(_mesh.vertices.size());
-        for (int j = 0; j <= rows; ++j) {
-            for (int i = 0; i <= columns; ++i) {
-                glm::dvec3 unit;
-                unit[fixed] = side;
-                unit[u] = unitAt(u, i);
-                unit[v] = unitAt(v, j);
-                const glm::dvec3 ecef = _surface(unit);
-                _mesh.vertices.emplace_back(osg::Vec3d(ecef.x, ecef.y, ecef.z) - _mesh.origin);
+    const auto width = static_cast<unsigned int>(columns + 1);
+    for (unsigned int j = 0; j < static_cast<unsigned int>(rows); ++j) {
+        for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i) {
+            const unsigned int at = first + j * width + i;
+            const unsigned int right = side > 0.0 ? at + width : at + 1;
+            const unsigned int left = side > 0.0 ? at + 1 : at + width;
+            for (const unsigned int index : {at, right, at + width + 1, at, at + width + 1, left}) {
+                mesh.triangles.push_back(index);
             }
         }
-        const auto width = static_cast<unsigned int>(columns + 1);
-        for (unsigned int j = 0; j < static_cast<unsigned int>(rows); ++j) {
-            for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i) {
-                const unsigned int at = first + j * width + i;
-                const unsigned int right = side > 0.0 ? at + width : at + 1;
-                const unsigned int left = side > 0.0 ? at + 1 : at + width;
-                for (const unsigned int index : {at, right, at + width + 1, at, at + width + 1, left}) {
-                    _mesh.triangles.push_back(index);
-                }
-            }
-        }
-        for (const unsigned int row : {first, first + static_cast<unsigned int>(rows) * width})
-            for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i)
-                _mesh.lines.insert(_mesh.lines.end(), {row + i, row + i + 1});
     }
+    for (const unsigned int row : {first, first + static_cast<unsigned int>(rows) * width})
+        for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i)
+            mesh.lines.insert(mesh.lines.end(), {row + i, row + i + 1});
+}
 
-    const Surface& _surface;
-    const std::array<int, 3> _steps;
-    SlabMesh _mesh;
-};
+SlabMesh meshOf(const Surface& surface, const std::array<int, 3>& steps) {
+    SlabMesh mesh;
+    mesh.origin = toOsg(surface(glm::dvec3(0.0)));
+    for (int fixed = 0; fixed < 3; ++fixed)
+        for (const double side : {-1.0, 1.0}) addFace(surface, steps, fixed, side, mesh);
+    return mesh;
+}
 
 // Brings a node nearer to the eye by a share of the distance. The picture of a perspective view stays the same.
 class Nearer : public osg::Transform {
@@ -122,18 +112,16 @@ SlabMesh slabMesh(const core::GeodeticBin& of, const core::Ellipsoid& ellipsoid,
     const core::GeodeticMapping mapping(ellipsoid);
     if (shape == SlabShape::Quadratic) {
         const core::QuadraticBin model(mapping, core::parameterBox(bin));
-        return Builder([&](const glm::dvec3& unit) { return model.modelPoint(unit); }, steps).mesh();
+        return meshOf([&](const glm::dvec3& unit) { return model.modelPoint(unit); }, steps);
     }
     const auto at = [](const core::Interval& interval, double unit) {
         return interval.middle() + 0.5 * unit * interval.width();
     };
-    return Builder(
-               [&](const glm::dvec3& unit) {
-                   return mapping.value(
-                       {at(bin.latitude(), unit.x), at(bin.longitude(), unit.y), at(bin.altitude(), unit.z)});
-               },
-               steps)
-        .mesh();
+    return meshOf(
+        [&](const glm::dvec3& unit) {
+            return mapping.value({at(bin.latitude(), unit.x), at(bin.longitude(), unit.y), at(bin.altitude(), unit.z)});
+        },
+        steps);
 }
 
 osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges, int edgesBin) {

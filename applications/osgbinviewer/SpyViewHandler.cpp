@@ -59,21 +59,11 @@ void makeRoomForWindows(osgViewer::View& view) {
 
 // A window as large as the camera's, beside it.
 osg::ref_ptr<osg::GraphicsContext> makeWindow(const osg::GraphicsContext& beside) {
-    const osg::GraphicsContext::Traits& known = *beside.getTraits();
-    const osg::ref_ptr<osg::GraphicsContext::Traits> traits =
-        new osg::GraphicsContext::Traits(osg::DisplaySettings::instance());
-    traits->readDISPLAY();
-    if (traits->displayNum < 0) traits->displayNum = 0;
-    traits->screenNum = known.screenNum;
-    traits->hostName = known.hostName;
-    traits->x = known.x + known.width;
-    traits->y = known.y;
-    traits->width = known.width;
-    traits->height = known.height;
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits(*beside.getTraits());
+    traits->x += traits->width;
     traits->windowName = "what the camera culls";
-    traits->windowDecoration = known.windowDecoration;
-    traits->pbuffer = known.pbuffer;
-    traits->doubleBuffer = known.doubleBuffer;
+    traits->inheritedWindowData = nullptr;
+    traits->sharedContext = nullptr;
     traits->vsync = false;
     return osg::GraphicsContext::createGraphicsContext(traits);
 }
