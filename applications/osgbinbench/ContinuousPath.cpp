@@ -21,14 +21,10 @@ double mixed(double a, double b, double share) {
     return ratio > 0.0 ? a * std::pow(ratio, share) : a + (b - a) * share;
 }
 
-glm::dvec3 verticalAt(const Geodetic& p) {
-    return {std::cos(p.latitude) * std::cos(p.longitude), std::cos(p.latitude) * std::sin(p.longitude),
-            std::sin(p.latitude)};
-}
-
 Geodetic mixed(const Geodetic& a, const Geodetic& b, double share) {
-    const glm::dvec3 from = verticalAt(a);
-    const glm::dvec3 to = verticalAt(b);
+    const core::Ellipsoid sphere(1.0, 1.0);
+    const glm::dvec3 from = sphere.up(a.latitude, a.longitude);
+    const glm::dvec3 to = sphere.up(b.latitude, b.longitude);
     const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
     const double sine = std::sin(angle);
     // Where the two ends coincide, or stand opposite each other, there is no one circle to follow.

@@ -189,33 +189,35 @@ std::vector<MethodFigures> figuresOf(const std::vector<std::unique_ptr<AnyFlight
     return figures;
 }
 
-}  // namespace
-
-std::vector<MethodFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
-                                           const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+/// All methods take turns of so many steps of the way, each time starting with another one.
+template <class Turn>
+std::vector<MethodFigures> inTurns(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch,
+                                   std::size_t steps, std::size_t stepsPerTurn, const char* what, const Turn& turn) {
     const auto flights = flightsOf<Flight>(settings, methods, watch);
     support::ProgressLine progress(stderr);
-    for (std::size_t begin = 0; begin < frames.size() && !isStopped(begin); begin += kFramesPerTurn) {
-        progress.show(static_cast<double>(begin) / static_cast<double>(frames.size()),
-                      "osgbinbench: " + std::to_string(frames.size()) + " frames with paging live, ");
-        const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
+    for (std::size_t begin = 0; begin < steps && !isStopped(begin); begin += stepsPerTurn) {
+        progress.show(static_cast<double>(begin) / static_cast<double>(steps),
+                      "osgbinbench: " + std::to_string(steps) + what + " with paging live, ");
         for (std::size_t i = 0; i < flights.size(); ++i)
-            flights[(i + begin / kFramesPerTurn) % flights.size()]->takeTurn(&frames[begin], frames.data() + end);
+            turn(*flights[(i + begin / stepsPerTurn) % flights.size()], begin);
     }
     return figuresOf(flights);
 }
 
+}  // namespace
+
+std::vector<MethodFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
+                                           const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+    const auto turn = [&](Flight& flight, std::size_t begin) {
+        flight.takeTurn(&frames[begin], frames.data() + std::min(begin + kFramesPerTurn, frames.size()));
+    };
+    return inTurns(settings, methods, watch, frames.size(), kFramesPerTurn, " frames", turn);
+}
+
 std::vector<MethodFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
                                 const std::vector<flight::CameraPose>& poses, FileWatch& watch) {
-    const auto flights = flightsOf<Flight>(settings, methods, watch);
-    support::ProgressLine progress(stderr);
-    for (std::size_t i = 0; i < poses.size() && !isStopped(i); ++i) {
-        progress.show(static_cast<double>(i) / static_cast<double>(poses.size()),
-                      "osgbinbench: " + std::to_string(poses.size()) + " jumps with paging live, ");
-        for (std::size_t k = 0; k < flights.size(); ++k)
-            flights[(k + i) % flights.size()]->jumpTo(poses[i], settings.timeout);
-    }
-    return figuresOf(flights);
+    return inTurns(settings, methods, watch, poses.size(), 1, " jumps",
+                   [&](Flight& flight, std::size_t pose) { flight.jumpTo(poses[pose], settings.timeout); });
 }
 
 std::vector<MethodFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
