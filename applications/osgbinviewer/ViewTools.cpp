@@ -3,8 +3,6 @@
 
 #include "ViewTools.h"
 
-#include "tile/EachNode.h"
-
 #include <osg/Depth>
 #include <osg/LineWidth>
 #include <osg/MatrixTransform>
@@ -17,6 +15,16 @@
 namespace osgAnalyticBin::viewer {
 
 namespace {
+
+class BoundsComputer : public osg::NodeVisitor {
+public:
+    BoundsComputer() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+
+    void apply(osg::Node& node) override {
+        traverse(node);
+        (void)node.getBound();
+    }
+};
 
 // From where a sphere fills the picture in the direction in which that is narrower.
 double distanceTo(double radius, const osg::Matrixd& projection) {
@@ -59,7 +67,8 @@ double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
 }  // namespace
 
 void computeBounds(osg::Node& node) {
-    forEachNode(node, [](osg::Node& each) { (void)each.getBound(); });
+    BoundsComputer computer;
+    node.accept(computer);
 }
 
 std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye, const osg::Vec3d& direction) {

@@ -11,10 +11,14 @@
 #include <osg/Plane>
 #include <osg/Vec3d>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin {
 
 [[nodiscard]] inline glm::dvec3 toGlm(const osg::Vec3d& v) {
     return {v.x(), v.y(), v.z()};
+}
+
+[[nodiscard]] inline osg::Vec3d toOsg(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
 }
 
 [[nodiscard]] inline core::Plane toCore(const osg::Plane& plane) {
@@ -25,4 +29,4 @@ namespace osgAnalyticBin::bench {
     return core::Ellipsoid(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar());
 }
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin
