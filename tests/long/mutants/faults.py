@@ -546,6 +546,8 @@ FAULTS = [
           "if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF ||", "if (", NODE, "HiddenByTerrain.*"),
     Fault("models: spheres of levels hold these", "src/kit/cull/HiddenByTerrainCallback.cpp",
           "lod.getRadius() < 0.0f) return true;", "lod.getRadius() < 1e9f) return true;", NODE, "HiddenByTerrain.*"),
+    Fault("models: spheres hold what is projected", "src/kit/cull/HiddenByTerrainCallback.cpp",
+          "|| !isAffine(m))", ")", NODE, "HiddenByTerrain.DrawsWhatMayBeSeen*"),
     Fault("models: spheres hold what is sheared", "src/kit/cull/HiddenByTerrainCallback.cpp",
           "const double tolerance = 1e-6 *", "const double tolerance = 10.0 *", NODE, "HiddenByTerrain.*"),
     Fault("models: on tiles they leave nothing out", "src/kit/cull/CullCallbacks.h",

@@ -214,6 +214,10 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
          [](auto& model) {
              wrap(model, *new osg::MatrixTransform(osg::Matrixd(1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)));
          }},
+        {"a projection onto something, as of planar shadows",
+         [](auto& model) {
+             wrap(model, *new osg::MatrixTransform(osg::Matrixd(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -0.001, 0, 0, 0, 1)));
+         }},
         {"a sphere that is too small",
          [](auto& model) {
              const osg::ref_ptr<osg::LOD> lod = new osg::LOD;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Classes.h"
+#include "../Inverse.h"
 #include "../tile/BoundWatch.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
@@ -25,7 +26,7 @@ namespace {
 bool keepsSpheres(const osg::Transform& transform) {
     osg::Matrixd m;
     if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
-        !transform.computeLocalToWorldMatrix(m, nullptr))
+        !transform.computeLocalToWorldMatrix(m, nullptr) || !isAffine(m))
         return false;
     const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
     const double tolerance = 1e-6 * (x * x + y * y + z * z);
