@@ -356,6 +356,8 @@ private:
     // one that moves the near plane away.
     [[nodiscard]] std::optional<Failure> compareVisitors(const Delivery& derived, const ViewSpec& view, int frame) {
         const auto own = _with.deliverToOsg(view, *_stamp, derived);
+        // for a derived visitor OSG tests spheres of meshes without the scale
+        if (!own && hasScaledTerrain(_description)) return std::nullopt;
         if (!own)
             return Failure{frame, "OSG's own visitor gets more than a derived one, or gets it in another way", ""};
         auto failure = compare(derived, *own, view, frame);
