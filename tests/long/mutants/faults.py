@@ -227,6 +227,8 @@ FAULTS = [
           "Rest.*"),
     Fault("databases never rest", "src/kit/cull/DatabaseRest.h", "? Turn::Bins : Turn::Osg", "? Turn::Bins : Turn::Bins", NODE,
           "Rest.*"),
+    Fault("databases rest when tiles have come", "src/kit/database/Database.cpp",
+          "    _arrivals.fetch_add(1, std::memory_order_relaxed);\n", "", NODE, "Rest.*"),
     Fault("terrain with a vertical scale rests", "src/kit/database/DatabaseCallbacks.cpp", " && shape.verticalScale == 1.0", "",
           NODE, "Rest.*"),
     Fault("walks go through models", "src/kit/cull/TileFamily.cpp", "            _withoutTiles[i] = child;\n", "", NODE,

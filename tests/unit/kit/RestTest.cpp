@@ -4,6 +4,7 @@
 // Where bins gain nothing, the database is left to OSG.
 
 #include "ApplicationGlobe.h"
+#include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -70,6 +71,14 @@ TEST(Rest, EndsWithinAFewDozenViewsWhereBinsGain) {
     // in a corner of a tile, which the spheres of three others reach
     EXPECT_TRUE(globe.testsBins(downTo(4, -4), 33));
     EXPECT_FALSE(globe.rests(downTo(4, -4)));
+}
+
+TEST(Rest, EndsWhenTilesCome) {
+    RestingGlobe globe(withoutHorizon());
+    ASSERT_TRUE(globe.rests(ofAllTiles()));
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0);
+    ASSERT_TRUE(osgAnalyticBin::addTile(*globe.root, *tile));
+    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
 }
 
 TEST(Rest, IsNotForTilesThatTheHorizonHides) {

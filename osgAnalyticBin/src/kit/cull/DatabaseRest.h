@@ -26,8 +26,14 @@ class DatabaseRest {
 public:
     enum class Turn { Bins, BinsCounted, Osg };
 
-    /// Call once in each view.
-    [[nodiscard]] Turn next() {
+    /// Call once in each view. `arrivals`: how often tiles have come; a rest ends with them, because the gain so far
+    /// was that of coarser ones.
+    [[nodiscard]] Turn next(unsigned int arrivals) {
+        if (arrivals != _arrivals) {
+            if (_gainless >= kPatience) _left = 0;
+            _gainless = 0;
+        }
+        _arrivals = arrivals;
         if (_left == 0) return Turn::BinsCounted;
         --_left;
         return _gainless < kPatience ? Turn::Bins : Turn::Osg;
@@ -41,8 +47,9 @@ public:
 private:
     static constexpr unsigned int kViews = 32, kPatience = 8;
 
-    unsigned int _gainless = 0;   // counted views in a row
-    unsigned int _left = kViews;  // until the gain is counted
+    unsigned int _gainless = 0;  // counted views in a row
+    unsigned int _left = 0;      // views until the gain is counted
+    unsigned int _arrivals = 0;
 };
 
 }  // namespace osgAnalyticBin

@@ -127,6 +127,7 @@ unsigned int Database::generation() const {
 }
 
 void Database::noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded) {
+    _arrivals.fetch_add(1, std::memory_order_relaxed);
     const std::lock_guard<std::mutex> lock(_mutex);
     _onTheirWay.push_back({&content, generation, isAdded});
     // a database that is not drawn never processes the list

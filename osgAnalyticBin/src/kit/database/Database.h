@@ -87,6 +87,8 @@ public:
     /// PagedLOD that pages it is no tile. The next update after it is attached adds the tiles to the families of the
     /// groups there.
     void noteOnItsWay(osg::Node& content, unsigned int generation, bool isAdded);
+    /// How often it was called.
+    [[nodiscard]] unsigned int arrivals() const { return _arrivals.load(std::memory_order_relaxed); }
 
     /// Null: there is none, or none yet.
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
@@ -180,6 +182,7 @@ private:
     const osg::Node* _root = nullptr;
     bool _isCulling = false;
     std::atomic<bool> _wasCulled{false};
+    std::atomic<unsigned int> _arrivals{0};
     std::atomic<unsigned int> _found{0};  // a bit for each Finding
     mutable std::mutex _mutex;            // guards the members below
     CullOptions _options;

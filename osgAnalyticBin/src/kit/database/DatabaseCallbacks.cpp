@@ -400,8 +400,9 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();
     const TerrainShape shape = _database->shape(options);
-    const DatabaseRest::Turn turn =
-        mayRest(nv, traversal, shape) ? traversal.lastView(*_database).left.next() : DatabaseRest::Turn::Bins;
+    const DatabaseRest::Turn turn = mayRest(nv, traversal, shape)
+                                        ? traversal.lastView(*_database).left.next(_database->arrivals())
+                                        : DatabaseRest::Turn::Bins;
     if (turn == DatabaseRest::Turn::Osg) return leaveToOsg(node, nv);
     beginWithAllPlanes(cullStack);
     DatabaseView view{node,
