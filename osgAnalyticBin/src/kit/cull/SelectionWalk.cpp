@@ -162,7 +162,6 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     segment.counts.straddling += countBits(verdicts.members & ~culled & ~inside);
     segment.counts.hidden += countBits(verdicts.members & verdicts.hidden);
     segment.counts.beyondEdge += countBits(verdicts.members & verdicts.separated);
-    if (_view.gain) countGain(family, first, verdicts.members, culled);
     segment.hides = segment.hides || (verdicts.members & verdicts.hidden) != 0;
     if (first >= family.size()) return 0;
     forEachBit(verdicts.members & ~culled & family.block().partFrom(first).withSpheres, [&](unsigned int number) {
@@ -170,6 +169,7 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
         if (isSphereCulled(cullingSet, undecided, family.node(first + number).getBound()))
             culled |= std::uint64_t{1} << number;
     });
+    if (_view.gain) countGain(family, first, verdicts.members, culled);
     return verdicts.members & ~culled;
 }
 
