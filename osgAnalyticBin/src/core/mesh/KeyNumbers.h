@@ -15,8 +15,12 @@ namespace osgAnalyticBin::core {
 template <class Key>
 class KeyNumbers {
 public:
-    /// Requires: there are at most `most` different keys.
-    explicit KeyNumbers(std::size_t most) {
+    KeyNumbers() = default;
+    explicit KeyNumbers(std::size_t most) { begin(most); }
+
+    /// Forgets all keys, and keeps the memory. Requires: there will be at most `most` different keys.
+    void begin(std::size_t most) {
+        _keys.clear();
         std::size_t size = 16;
         while (size < 2 * most) size *= 2;
         _numbers.assign(size, kNone);

@@ -3,6 +3,7 @@
 
 #include "../Constants.h"
 #include "../EarthScale.h"
+#include "../PerThread.h"
 #include "KeyNumbers.h"
 
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
@@ -25,13 +26,35 @@ constexpr double kGentle = 0.2;
 constexpr double kSkirtRoom = MeshCover::kSkirtRoom;
 
 class CoverSearch {
+    using Corners = std::array<std::uint32_t, 3>;
+    using Edge = std::array<std::uint64_t, 1>;  // of two vertices, the smaller number first
+    struct Triangle {
+        Corners corners;
+        bool isGentle, isSurface;
+    };
+
 public:
-    CoverSearch(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error)
+    // Kept from mesh to mesh: to get so much anew from the system takes longer than the search.
+    struct Memory {
+        KeyNumbers<std::array<std::uint64_t, 3>> positions;
+        KeyNumbers<Edge> edges;
+        std::vector<int> balance;            // of the edges
+        std::vector<std::uint32_t> firstAt;  // the first vertex at each position
+        std::vector<std::uint32_t> merged;   // the vertex that stands for each
+        std::vector<std::optional<Geodetic>> places;
+        std::vector<Triangle> triangles;
+    };
+
+    CoverSearch(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error, Memory& memory)
         : _ellipsoid(ellipsoid),
           _mesh(mesh),
+          _memory(memory),
           _metre(1.0 / (ellipsoid.isPlane() ? Ellipsoid::kMapUnitsInRadian : smallestCurvatureRadius(ellipsoid))),
-          _error(error * _metre),
-          _places(mesh.size()) {}
+          _error(error * _metre) {
+        _merged.clear();
+        _triangles.clear();
+        _places.assign(mesh.size(), std::nullopt);
+    }
 
     [[nodiscard]] MeshCover run() {
         MeshCover cover;
@@ -51,15 +74,13 @@ public:
     [[nodiscard]] const MeshCover::Ends& ends() const { return _ends; }
 
 private:
-    using Corners = std::array<std::uint32_t, 3>;
-    using Edge = std::array<std::uint64_t, 1>;  // of two vertices, the smaller number first
-
     // Vertices at one position count as one: triangles that share an edge may have vertices of their own. Returns:
     // false where a coordinate is not finite.
     [[nodiscard]] bool mergeVertices() {
-        KeyNumbers<std::array<std::uint64_t, 3>> positions(_mesh.size());
-        std::vector<std::uint32_t> firstAt;
-        _merged.reserve(_mesh.size());
+        KeyNumbers<std::array<std::uint64_t, 3>>& positions = _memory.positions;
+        std::vector<std::uint32_t>& firstAt = _memory.firstAt;
+        positions.begin(_mesh.size());
+        firstAt.clear();
         for (std::size_t i = 0; i < _mesh.size(); ++i) {
             const glm::dvec3 v = _mesh.vertex(i);
             if (!std::isfinite(v.x + v.y + v.z)) return false;
@@ -101,8 +122,10 @@ private:
 
     // Finds the edges where the surface ends: those that do not run as often from one vertex to the other as back.
     void findEnds() {
-        KeyNumbers<Edge> edges(3 * _triangles.size());
-        std::vector<int> balance;
+        KeyNumbers<Edge>& edges = _memory.edges;
+        std::vector<int>& balance = _memory.balance;
+        edges.begin(3 * _triangles.size());
+        balance.clear();
         for (const Triangle& triangle : _triangles) {
             if (!triangle.isSurface) continue;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -301,17 +324,13 @@ private:
         return count > 0;
     }
 
-    struct Triangle {
-        Corners corners;
-        bool isGentle, isSurface;
-    };
-
     const Ellipsoid& _ellipsoid;
     const EcefMesh& _mesh;
-    const double _metre, _error;         // in radians of great circles
-    std::vector<std::uint32_t> _merged;  // the vertex that stands for each
-    std::vector<std::optional<Geodetic>> _places;
-    std::vector<Triangle> _triangles;
+    Memory& _memory;
+    std::vector<std::uint32_t>& _merged = _memory.merged;
+    std::vector<std::optional<Geodetic>>& _places = _memory.places;
+    std::vector<Triangle>& _triangles = _memory.triangles;
+    const double _metre, _error;  // in radians of great circles
     MeshCover::Ends _ends;
     glm::dvec3 _middle{0.0};          // of gentle triangles
     double _longitude = 0.0;          // of the middle
@@ -322,7 +341,8 @@ private:
 }  // namespace
 
 MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error, Ends* ends) {
-    CoverSearch search(ellipsoid, mesh, error);
+    thread_local PerThread<CoverSearch::Memory> memory;
+    CoverSearch search(ellipsoid, mesh, error, *memory);
     const MeshCover cover = search.run();
     if (ends) *ends = search.ends();
     return cover;

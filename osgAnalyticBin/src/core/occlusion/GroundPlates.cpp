@@ -3,6 +3,7 @@
 
 #include "../Constants.h"
 #include "../EarthScale.h"
+#include "../PerThread.h"
 #include "../kernels/OcclusionKernels.h"
 #include "PlateCells.h"
 
@@ -52,9 +53,15 @@ private:
         double latitude, longitude, altitude;  // the longitude from that of the middle
         double axisDistance;
     };
+    // Keeps its memory from mesh to mesh.
+    [[nodiscard]] static std::vector<Vertex>& vertices() {
+        thread_local PerThread<std::vector<Vertex>> kept;
+        return *kept;
+    }
 
     void findVertices() {
         const double middle = _plates._longitude.middle();
+        _vertices.clear();
         _vertices.reserve(_mesh.size());
         for (std::size_t i = 0; i < _mesh.size(); ++i) {
             const glm::dvec3 v = _mesh.vertex(i);
@@ -158,7 +165,7 @@ private:
     GroundPlates& _plates;
     const EcefMesh& _mesh;
     const double _radius;  // no larger than a radius of curvature at any point of the mesh
-    std::vector<Vertex> _vertices;
+    std::vector<Vertex>& _vertices = vertices();
     std::array<double, kNumbers> _low;
     std::array<double, kParts> _high;
 };

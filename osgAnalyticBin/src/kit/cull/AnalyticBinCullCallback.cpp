@@ -3,7 +3,7 @@
 
 #include "../GlmBridge.h"
 #include "../Inverse.h"
-#include "../PerThread.h"
+#include "../../core/PerThread.h"
 #include "../Spheres.h"
 #include "../tile/InstalledDatabase.h"
 #include "../tile/InstalledTile.h"

@@ -4,7 +4,7 @@
 #include "GroundBelow.h"
 
 #include "../GlmBridge.h"
-#include "../PerThread.h"
+#include "../../core/PerThread.h"
 #include "../surface/SurfaceMesh.h"
 #include "../surface/SurfaceWalk.h"
 

@@ -3,7 +3,7 @@
 
 #include "MapGround.h"
 
-#include "../PerThread.h"
+#include "../../core/PerThread.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"

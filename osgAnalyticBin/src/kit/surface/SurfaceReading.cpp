@@ -4,7 +4,7 @@
 #include "../../core/EarthScale.h"
 #include "../../core/mesh/KeyNumbers.h"
 #include "../GlmBridge.h"
-#include "../PerThread.h"
+#include "../../core/PerThread.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"

@@ -5,7 +5,7 @@
 
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
-#include "../PerThread.h"
+#include "../../core/PerThread.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"
