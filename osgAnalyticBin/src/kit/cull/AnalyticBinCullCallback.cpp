@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../../core/PerThread.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
-#include "../../core/PerThread.h"
 #include "../Spheres.h"
 #include "../tile/InstalledDatabase.h"
 #include "../tile/InstalledTile.h"

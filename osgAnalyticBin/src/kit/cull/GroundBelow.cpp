@@ -3,8 +3,8 @@
 
 #include "GroundBelow.h"
 
-#include "../GlmBridge.h"
 #include "../../core/PerThread.h"
+#include "../GlmBridge.h"
 #include "../surface/SurfaceMesh.h"
 #include "../surface/SurfaceWalk.h"
 

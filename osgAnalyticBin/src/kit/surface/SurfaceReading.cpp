@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "../../core/EarthScale.h"
+#include "../../core/PerThread.h"
 #include "../../core/mesh/KeyNumbers.h"
 #include "../GlmBridge.h"
-#include "../../core/PerThread.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"

@@ -4,8 +4,8 @@
 #include "TilePlates.h"
 
 #include "../../core/EarthScale.h"
-#include "../GlmBridge.h"
 #include "../../core/PerThread.h"
+#include "../GlmBridge.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"
