@@ -12,8 +12,8 @@
 
 namespace osgAnalyticBin {
 
-/// Appends what it is given to `bytes`, as memory has it: for a later run of the same program. A function template over
-/// writer and reader describes a record for both directions.
+/// Appends values to `bytes` in the form that they have in memory, for a later run of the same program. A function
+/// template over writer and reader describes a record for both directions.
 class RecordWriter final {
 public:
     template <class T>

@@ -142,7 +142,7 @@ public:
     /// Without the point.
     [[nodiscard]] const std::string& extension() const { return _extension; }
 
-    /// `file`: as the original is named. May be called by several threads. Throws Failure.
+    /// `file`: the name of the original. For any thread. Throws Failure.
     void write(const std::string& file, const osg::Node& scene) {
         const std::string path = pathOf(file);
         std::error_code error;

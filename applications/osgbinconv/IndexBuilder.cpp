@@ -100,7 +100,7 @@ public:
         write(out.bytes);
     }
 
-    /// Deletes the file: nobody needs it any more.
+    /// Deletes the file, which is no longer needed.
     void remove() { _lock.remove(); }
 
     /// Has just these records from here on.

@@ -162,7 +162,7 @@ std::pair<std::size_t, std::size_t> fill(MethodScene& scene, const CameraPose& p
         frontier.insert(frontier.end(), children.begin(), children.end());
         count += children.size();
     }
-    // what was loaded is noticed by the next cull traversal, which has the next update traversal look after it
+    // the next cull traversal notices what was loaded, and the next update traversal takes care of it
     for (int frame = 0; frame < 2; ++frame) (void)scene.flyFrame(pose, 1.0 / 60.0);
     return {loaded.size(), count};
 }
@@ -203,7 +203,7 @@ Json memoryOf(const std::string& name, const CullMethod& method, int tiles, bool
     options.bins = storesBins;
     const auto scene = makeScene(method, options, watch);
     settle(*scene, far);
-    // What is loaded once, and the start tiles, do not count.
+    // The start tiles and what is loaded only once do not count.
     const std::size_t start = pagedLodsIn(scene->root()).size();
     const double bytes = allocatedBytes();
     const auto begin = Clock::now();

@@ -158,7 +158,7 @@ public:
     [[nodiscard]] InstalledTile* getInstalledTile() const;
     /// See getInstalledTile(); for installers.
     void setInstalledTile(InstalledTile* tile);
-    /// Whether an installer made it, or made that of which it is the saved copy.
+    /// Whether an installer made it, or it is the saved copy of one that an installer made.
     [[nodiscard]] bool isInstalled() const { return _installed || _wasInstalled; }
 
     /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of

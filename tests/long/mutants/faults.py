@@ -56,7 +56,7 @@ FAULTS = [
     Fault("depth is tested without a state", "src/kit/cull/DrawnState.cpp",
           "bool says = !visitor.getRenderInfo().getView();", "bool says = true;", NODE, "HiddenByTerrain.NeedsADepthTest*"),
     Fault("models are drawn in the database's state", "src/kit/cull/HidingView.cpp",
-          "!graph || !saysDepthTest(visitor)", "!graph", NODE, "HiddenByTerrain.NeedsADepthTest*"),
+          "!_isDepthTestKnownAbove && !saysDepthTest(visitor, graph)", "!graph", NODE, "HiddenByTerrain.NeedsADepthTest*"),
     Fault("saved tiles that have lost their meshes keep their bins", "src/kit/install/TileCallback.cpp",
           "if (hasInstalledBin(node)) removeCallbacks(", "if (installedTileOf(node)) removeCallbacks(", SCENES,
           f"{NAMED}/saved-and-vanished.scene"),

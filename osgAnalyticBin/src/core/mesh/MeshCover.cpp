@@ -5,6 +5,7 @@
 #include "../EarthScale.h"
 #include "../PerThread.h"
 #include "KeyNumbers.h"
+#include "VerticalPassage.h"
 
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 
@@ -312,14 +313,10 @@ private:
         int count = 0;
         for (const Triangle& triangle : _triangles) {
             if (!triangle.isSurface) continue;
-            const glm::dvec3 p = _mesh.vertex(triangle.corners[0]) - foot, q = _mesh.vertex(triangle.corners[1]) - foot,
-                             r = _mesh.vertex(triangle.corners[2]) - foot;
-            const double pq = glm::dot(up, glm::cross(p, q)), qr = glm::dot(up, glm::cross(q, r)),
-                         rp = glm::dot(up, glm::cross(r, p)), all = pq + qr + rp;
-            const bool isMet = (pq > 0.0 && qr > 0.0 && rp > 0.0) || (pq < 0.0 && qr < 0.0 && rp < 0.0);
-            if (!isMet) continue;
-            const double altitude = (pq * glm::dot(up, r) + qr * glm::dot(up, p) + rp * glm::dot(up, q)) / all;
-            if (altitude > -deepest) count += all > 0.0 ? 1 : -1;
+            const VerticalPassage passage({_mesh.vertex(triangle.corners[0]), _mesh.vertex(triangle.corners[1]),
+                                           _mesh.vertex(triangle.corners[2])},
+                                          foot, up);
+            if (passage.isWithin() && passage.height() > -deepest) count += passage.facesUp() ? 1 : -1;
         }
         return count > 0;
     }

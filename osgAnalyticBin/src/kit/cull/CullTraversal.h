@@ -114,7 +114,7 @@ public:
         unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;          ///< how many of them are left
         osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
-        DatabaseRest left;                 ///< views that are left to OSG
+        DatabaseRest databaseRest;         ///< while bins gain nothing
     };
     [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
     GroundBelow ground;  ///< last found below the eye

@@ -289,9 +289,9 @@ DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGra
     return drawn;
 }
 
-bool saysDepthTest(osgUtil::CullVisitor& visitor) {
+bool saysDepthTest(osgUtil::CullVisitor& visitor, const osgUtil::StateGraph* graph) {
     bool says = !visitor.getRenderInfo().getView();
-    for (const auto* graph = visitor.getCurrentStateGraph(); !says && graph; graph = graph->_parent)
+    for (; !says && graph; graph = graph->_parent)
         says = graph->_stateset && !(graph->_stateset->getMode(GL_DEPTH_TEST) & Attribute::INHERIT);
     return says;
 }
@@ -305,7 +305,7 @@ DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, c
     for (const auto* graph = present; !isWindingSet && graph && graph != end; graph = graph->_parent)
         isWindingSet = graph->_stateset && graph->_stateset->getAttribute(Attribute::FRONTFACE);
     if (!isWindingSet) drawn &= kHidesNothing;
-    if (!end && !saysDepthTest(*cullVisitor)) drawn &= kUnknown;
+    if (!end && !saysDepthTest(*cullVisitor, present)) drawn &= kUnknown;
     return drawn;
 }
 

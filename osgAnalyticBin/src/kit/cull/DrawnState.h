@@ -77,9 +77,9 @@ struct StateRules {
 [[nodiscard]] DrawnState drawnStates(const osgUtil::StateGraph* graph, const osgUtil::StateGraph* end,
                                      const StateRules& rules);
 
-/// Whether a state from the camera to the visitor's present node says whether depth is tested. True for what is drawn
+/// Whether a state of a visitor's graph, or of those above it, says whether depth is tested. True for what is drawn
 /// without an osg::View: there an application may have told OpenGL by itself.
-[[nodiscard]] bool saysDepthTest(osgUtil::CullVisitor& visitor);
+[[nodiscard]] bool saysDepthTest(osgUtil::CullVisitor& visitor, const osgUtil::StateGraph* graph);
 
 /// Of the states from the camera to the visitor's present node, or from below `end` where it is among them. Returns:
 /// all is known for visitors that collect no state.

@@ -4,18 +4,16 @@
 #include "GroundBelow.h"
 
 #include "../../core/PerThread.h"
+#include "../../core/mesh/VerticalPassage.h"
 #include "../GlmBridge.h"
 #include "../surface/SurfaceMesh.h"
 #include "../surface/SurfaceWalk.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <osg/Drawable>
 #include <osgTerrain/TerrainTechnique>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace osgAnalyticBin {
 
@@ -27,16 +25,12 @@ class VerticalSearch final : public SurfaceWalk {
 public:
     // `bottom`: metres, less than 0, down to which triangles are looked for.
     VerticalSearch(const osg::Matrixd& localToEcef, const glm::dvec3& point, const glm::dvec3& up, double bottom)
-        : SurfaceWalk(localToEcef), _point(point), _highest(bottom) {
-        const glm::dvec3 least = std::abs(up.z) < 0.5 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-        const glm::dvec3 east = glm::normalize(glm::cross(least, up));
-        _axes = {east, glm::cross(up, east), up};
-    }
+        : SurfaceWalk(localToEcef), _point(point), _up(up), _highest(bottom) {}
 
     // Whether there is one, and the point is above it.
     [[nodiscard]] bool isBelow() const { return isKnown() && _hasTriangle && _highest < 0.0; }
     // Its corners, in ECEF.
-    [[nodiscard]] const std::array<glm::dvec3, 3>& triangle() const { return _triangle; }
+    [[nodiscard]] const core::TriangleCorners& triangle() const { return _triangle; }
 
 private:
     // OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
@@ -51,47 +45,32 @@ private:
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from mesh to mesh
         SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
-        // from the point, along the axes
-        for (std::size_t i = 0; i < mesh.size(); ++i) {
-            const glm::dvec3 at = (mesh.vertex(i) - _point) * _axes;
-            mesh.x[i] = at.x;
-            mesh.y[i] = at.y;
-            mesh.z[i] = at.z;
-        }
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
-            add(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]), mesh.vertex(mesh.triangles[i + 2]));
+            add({mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
+                 mesh.vertex(mesh.triangles[i + 2])});
     }
 
-    void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
-        const bool isMet = (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
-        const double height = isMet ? (ab * c.z + bc * a.z + ca * b.z) / (ab + bc + ca) : 0.0;
-        // one on edge has no height
-        if (!isMet || !(height > _highest)) return;
+    void add(const core::TriangleCorners& triangle) {
+        const core::VerticalPassage passage(triangle, _point, _up);
+        const double height = passage.isWithinOrOnSide() ? passage.height() : _highest;
+        // a triangle on edge has none
+        if (!(height > _highest)) return;
         _hasTriangle = true;
         _highest = height;
-        for (const auto& [corner, i] : {std::pair(a, 0U), std::pair(b, 1U), std::pair(c, 2U)})
-            _triangle[i] = _point + _axes * corner;
+        _triangle = triangle;
     }
 
-    const glm::dvec3 _point;
-    glm::dmat3 _axes;
+    const glm::dvec3 _point, _up;
     double _highest;  // metres above the point
     bool _hasTriangle = false;
-    std::array<glm::dvec3, 3> _triangle{};
+    core::TriangleCorners _triangle{};
 };
 
 }  // namespace
 
 bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const {
-    const auto& [a, b, c] = _triangle;
-    const double ab = glm::dot(up, glm::cross(a - eye, b - eye));
-    const double bc = glm::dot(up, glm::cross(b - eye, c - eye));
-    const double ca = glm::dot(up, glm::cross(c - eye, a - eye));
-    const bool isWithin = (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
-    return isWithin &&
-           (ab * glm::dot(up, c - eye) + bc * glm::dot(up, a - eye) + ca * glm::dot(up, b - eye)) / (ab + bc + ca) <
-               0.0;
+    const core::VerticalPassage passage(_triangle, eye, up);
+    return passage.isWithin() && passage.height() < 0.0;
 }
 
 bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid) {

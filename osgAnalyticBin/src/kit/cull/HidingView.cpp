@@ -133,11 +133,13 @@ bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double
 
 DrawnState HidingView::stateAbove(osgUtil::CullVisitor& visitor, const StateRules& rules) {
     const osgUtil::StateGraph* const graph = visitor.getCurrentStateGraph();
-    if (!graph || !saysDepthTest(visitor)) return {false, false};
+    if (!graph) return {false, false};
     if (!_above || graph->_parent != _above) {
         _above = graph->_parent;
         _stateAbove = drawnStates(_above, nullptr, rules);
+        _isDepthTestKnownAbove = saysDepthTest(visitor, _above);
     }
+    if (!_isDepthTestKnownAbove && !saysDepthTest(visitor, graph)) return {false, false};
     DrawnState drawn = drawnStates(graph, _above, rules);
     drawn &= _stateAbove;
     return drawn;

@@ -82,6 +82,7 @@ private:
 
     const osgUtil::StateGraph* _above = nullptr;
     DrawnState _stateAbove;
+    bool _isDepthTestKnownAbove = false;
 };
 
 }  // namespace osgAnalyticBin

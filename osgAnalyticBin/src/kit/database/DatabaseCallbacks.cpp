@@ -401,7 +401,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     const CullOptions options = _database->options();
     const TerrainShape shape = _database->shape(options);
     const DatabaseRest::Turn turn = mayRest(nv, traversal, shape)
-                                        ? traversal.lastView(*_database).left.next(_database->arrivals())
+                                        ? traversal.lastView(*_database).databaseRest.next(_database->arrivals())
                                         : DatabaseRest::Turn::Bins;
     if (turn == DatabaseRest::Turn::Osg) return leaveToOsg(node, nv);
     beginWithAllPlanes(cullStack);
@@ -434,7 +434,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
         traverse(&node, &nv);
     }
     view.selection->clear();
-    if (view.gain) traversal.lastView(*_database).left.note(gain);
+    if (view.gain) traversal.lastView(*_database).databaseRest.note(gain);
 }
 
 void bringUpToDate(osg::Node& node, Database& database) {
