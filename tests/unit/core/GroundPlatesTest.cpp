@@ -114,7 +114,7 @@ void expectBelow(Random& random, bool isMap, int& known) {
             for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
                 std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
         }
-        expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, mesh, extents), known);
+        expectBelow(random, ellipsoid, mesh, platesOf(ellipsoid, mesh, extents), known);
     }
 }
 
@@ -147,7 +147,7 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasFolds) {
             const auto column = static_cast<std::size_t>(random.integer(1, static_cast<int>(cells) - 1));
             moveVertex(mesh, row * (cells + 1) + column, random.uniform(0.0, 3.0) * cell * random.direction());
         }
-        const GroundPlates plates(ellipsoid, mesh, extents);
+        const GroundPlates plates = platesOf(ellipsoid, mesh, extents);
         expectBelow(random, ellipsoid, mesh, plates, known);
         folded += plates.isKnown() ? 1 : 0;
     }
@@ -169,7 +169,7 @@ TEST(GroundPlates, AreNotKnownWhereTheMeshHasAHole) {
         if (kind == 0) mesh.triangles.erase(at, at + 3);
         if (kind == 1) std::swap(at[0], at[1]);
         if (kind == 2) std::copy_n(mesh.triangles.begin() + 3 * ((hole + 1) % triangles), 3, at);
-        ASSERT_FALSE(GroundPlates(ellipsoid, mesh, extents).isKnown()) << "kind " << kind << ", triangle " << hole;
+        ASSERT_FALSE(platesOf(ellipsoid, mesh, extents).isKnown()) << "kind " << kind << ", triangle " << hole;
     }
 }
 
@@ -187,7 +187,7 @@ TEST(GroundPlates, ClosedMeshesCoverNothing) {
         const std::uint32_t a = 2 + i, b = 2 + (i + 1) % kCorners;
         mesh.triangles.insert(mesh.triangles.end(), {0, a, b, 1, b, a});
     }
-    EXPECT_FALSE(GroundPlates(earth, mesh, extents).isKnown());
+    EXPECT_FALSE(platesOf(earth, mesh, extents).isKnown());
 }
 
 // Triangles at a pole's vertex run around the axis, whatever longitudes the tile has.
@@ -204,7 +204,7 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItEndsInAPole) {
             addVertex(mesh, glm::dvec3(away.x, away.y, earth.polarRadius() - 3000.0));
             for (std::uint32_t i = 0; i < 24; ++i)
                 mesh.triangles.insert(mesh.triangles.end(), {24 * 25 + i, 24 * 25 + i + 1, pole});
-            expectBelow(random, earth, mesh, GroundPlates(earth, mesh, extents), known);
+            expectBelow(random, earth, mesh, platesOf(earth, mesh, extents), known);
         }
     }
     EXPECT_GT(known, 6 * 3 * 20);
@@ -221,7 +221,7 @@ TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
         const GeodeticBin extents({south, south + size}, {1.0, 1.0 + size}, {-0.1 * relief, relief});
         const std::uint32_t posts = 8 * kPostsOfCell;
         const EcefMesh mesh = gridMesh(random, earth, extents, posts);
-        const GroundPlates plates(earth, mesh, extents);
+        const GroundPlates plates = platesOf(earth, mesh, extents);
         const double sag = 6.4e6 * (size / posts) * (size / posts);
         const double rounding = 1e-3 + 2.0 * 1.1 * relief / 65533.0;
         for (std::uint32_t cell = 0; cell < 64; ++cell) {
@@ -240,7 +240,7 @@ TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
 TEST(GroundPlates, ColumnsOfFinerCellsAreThoseThatStandOut) {
     Random random(1738);
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
-    const GroundPlates plates(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
+    const GroundPlates plates = platesOf(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
     core::EarthColumns all, some;
     for (const double worth : {0.0, 100.0, 1e9}) {
         for (std::size_t quarter = 0; quarter < 4; ++quarter) {
@@ -309,7 +309,8 @@ TEST(GroundPlates, OfAGridAreThoseOfItsMesh) {
         const EcefMesh mesh = gridMesh(random, earth, extents, cells);
         const Posts posts(earth, extents, mesh, cells);
         // without vertices in common it is not known to be a grid
-        const GroundPlates ofMesh(earth, unmerged(mesh), extents), ofGrid(earth, posts.grid, posts.altitudes);
+        const GroundPlates ofMesh = platesOf(earth, unmerged(mesh), extents),
+                           ofGrid(earth, posts.grid, posts.altitudes);
         const double spacing = size / cells * 6.4e6;
         for (const std::size_t side : kGrids) {
             for (std::size_t i = 0; i < side * side; ++i) {
@@ -351,12 +352,12 @@ TEST(GroundPlates, AreLowerByTheMarginOfTheMesh) {
     const Ellipsoid earth = wgs84();
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     const EcefMesh mesh = gridMesh(random, earth, extents, 16);
-    const GroundPlates exact(earth, mesh, extents), drawn(earth, mesh, extents, 5.0);
+    const GroundPlates exact = platesOf(earth, mesh, extents), drawn = platesOf(earth, mesh, extents, 5.0);
     EXPECT_LE(drawn.least(8, 3, 4), exact.least(8, 3, 4) - 4.9);
     EXPECT_TRUE(drawn.isKnown());
     // a tenth of a rim is 11 m along the meridian; some are kept in reserve
-    EXPECT_TRUE(GroundPlates(earth, mesh, extents, 8.5).isKnown());
-    EXPECT_FALSE(GroundPlates(earth, mesh, extents, 13.0).isKnown());
+    EXPECT_TRUE(platesOf(earth, mesh, extents, 8.5).isKnown());
+    EXPECT_FALSE(platesOf(earth, mesh, extents, 13.0).isKnown());
 }
 
 // OpenGL does not draw such a mesh from above when it culls back faces.
@@ -365,16 +366,16 @@ TEST(GroundPlates, AreNotKnownWhereFrontFacesLookDown) {
     const Ellipsoid earth = wgs84();
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     EcefMesh mesh = gridMesh(random, earth, extents, 16);
-    EXPECT_TRUE(GroundPlates(earth, mesh, extents).isKnown());
+    EXPECT_TRUE(platesOf(earth, mesh, extents).isKnown());
     for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
-    EXPECT_FALSE(GroundPlates(earth, mesh, extents).isKnown());
+    EXPECT_FALSE(platesOf(earth, mesh, extents).isKnown());
 }
 
 TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
     Random random(1704);
     const Ellipsoid earth = wgs84();
     const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
-        return !columnsOf(GroundPlates(ellipsoid, gridMesh(random, ellipsoid, extents, 32), extents), 8, 100.0).empty();
+        return !columnsOf(platesOf(ellipsoid, gridMesh(random, ellipsoid, extents, 32), extents), 8, 100.0).empty();
     };
     const Interval flat{0.0, 0.0};
     EXPECT_TRUE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
@@ -383,8 +384,8 @@ TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
     EXPECT_FALSE(isKnown(Ellipsoid(6e6, 5e6), GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
     EXPECT_FALSE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, {1e6, 1e6})));
     EXPECT_TRUE(columnsOf(GroundPlates(), 1, 100.0).empty());
-    const GroundPlates known(earth, gridMesh(random, earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat), 8),
-                             GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat));
+    const GeodeticBin plain({0.5, 0.6}, {0.0, 0.1}, flat);
+    const GroundPlates known = platesOf(earth, gridMesh(random, earth, plain, 8), plain);
     EXPECT_TRUE(std::isfinite(known.least(8, 4, 4)));
     EXPECT_TRUE(columnsOf(known, 8, 1e6).empty());
     EXPECT_TRUE(columnsOf(known, 8, std::nan("")).empty());
@@ -403,7 +404,7 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
         const GeodeticBin widest({south, south + 0.999}, {west, west + 0.8}, {-1e3, 1e3});
         const GeodeticBin extents = trial % 4 == 0 ? widest : randomExtents(random, ellipsoid);
         const EcefMesh mesh = gridMesh(random, ellipsoid, extents, 16);
-        const GroundPlates plates(ellipsoid, mesh, extents);
+        const GroundPlates plates = platesOf(ellipsoid, mesh, extents);
         core::Frame frame{
             ellipsoid.toEcef({extents.latitude().lower, extents.longitude().upper, 100.0}), random.direction(), {}, {}};
         frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
@@ -451,11 +452,11 @@ TEST(GroundPlates, NothingIsKnownWhereATriangleIsWrong) {
     const Ellipsoid earth = wgs84();
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     const EcefMesh whole = gridMesh(random, earth, extents, 16);
-    ASSERT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(1, 0, 0)));
+    ASSERT_TRUE(std::isfinite(platesOf(earth, whole, extents).least(1, 0, 0)));
     const auto isWhole = [&](const std::function<void(std::vector<std::uint32_t>&)>& change) {
         EcefMesh mesh = whole;
         change(mesh.triangles);
-        return std::isfinite(GroundPlates(earth, mesh, extents).least(1, 0, 0));
+        return std::isfinite(platesOf(earth, mesh, extents).least(1, 0, 0));
     };
     using Triangles = std::vector<std::uint32_t>;
     EXPECT_TRUE(isWhole([](Triangles& triangles) { triangles.insert(triangles.end(), {5, 5, 9}); }));
@@ -473,8 +474,8 @@ TEST(GroundPlates, NothingIsKnownWhereATriangleIsWrong) {
         shorter.y[i] = v.y;
         shorter.z[i] = v.z;
     }
-    EXPECT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(8, 0, 3)));
-    EXPECT_FALSE(std::isfinite(GroundPlates(earth, shorter, extents).least(8, 0, 3)));
+    EXPECT_TRUE(std::isfinite(platesOf(earth, whole, extents).least(8, 0, 3)));
+    EXPECT_FALSE(std::isfinite(platesOf(earth, shorter, extents).least(8, 0, 3)));
 }
 
 }  // namespace

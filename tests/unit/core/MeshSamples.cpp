@@ -100,6 +100,11 @@ std::array<Triangle, 4> GridCell::triangles() const {
             Triangle{c[0], c[2], c[3]}};
 }
 
+core::GroundPlates platesOf(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
+                            const core::GeodeticBin& extents, double margin) {
+    return {ellipsoid, mesh, core::MeshCover::of(ellipsoid, mesh, margin), extents, margin};
+}
+
 EcefMesh unmerged(const EcefMesh& mesh) {
     EcefMesh result;
     for (const std::uint32_t vertex : mesh.triangles) {

@@ -7,6 +7,7 @@
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
+#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <array>
 #include <cstddef>
@@ -52,6 +53,10 @@ struct GridCell {
 /// The mesh of a grid with skirts of `depth` metres along its border, each post of which has another vertex below.
 [[nodiscard]] core::EcefMesh withSkirts(const core::Ellipsoid& ellipsoid, const core::EcefMesh& grid,
                                         std::uint32_t cells, double depth);
+
+/// Plates of a mesh, with what it covers. Otherwise as the constructor of GroundPlates.
+[[nodiscard]] core::GroundPlates platesOf(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
+                                          const core::GeodeticBin& extents, double margin = 0.0);
 
 /// As many meshes have it: each triangle has vertices of its own.
 [[nodiscard]] core::EcefMesh unmerged(const core::EcefMesh& mesh);

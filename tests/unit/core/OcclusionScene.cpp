@@ -249,7 +249,7 @@ core::EarthColumns columnsOf(const EarthColumn& column) {
 }
 
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
-    const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
+    const core::GroundPlates plates = platesOf(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     core::EarthColumns columns;
@@ -263,7 +263,7 @@ std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const Horizon
     std::vector<OutlinedPart> sorted;
     const core::Frame frame = frameOf(scene);
     for (const GroundTile& tile : scene.tiles) {
-        const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
+        const core::GroundPlates plates = platesOf(scene.ellipsoid, tile.mesh, tile.bin);
         const core::Interval altitude = tile.bin.altitude();
         const auto add = [&](core::BinHull hull, const GeodeticBin& bin, double top) {
             if (top < altitude.upper) hull.lowerTop(top, altitude);

@@ -101,7 +101,7 @@ TEST(GroundPlates, TopsAreAboveTheMesh) {
         const bool isClosed = !random.chance(0.3);
         if (!isClosed) std::swap(mesh.triangles[0], mesh.triangles[1]);
         closed += isClosed ? 1 : 0;
-        known += expectBelowTops(random, tile, mesh, GroundPlates(tile.ellipsoid, mesh, tile.extents), 0.0);
+        known += expectBelowTops(random, tile, mesh, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
     }
     EXPECT_GT(known, closed * 12);
 }
@@ -124,7 +124,7 @@ TEST(GroundPlates, TopsAreAboveSkirts) {
         const Tile tile(random);
         const double depth = random.sign() * tile.relief * random.logUniform(0.01, 0.9);
         const EcefMesh mesh = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
-        const GroundPlates plates(tile.ellipsoid, mesh, tile.extents);
+        const GroundPlates plates = platesOf(tile.ellipsoid, mesh, tile.extents);
         known += expectBelowTops(random, tile, mesh, plates, std::abs(depth));
     }
     EXPECT_GT(known, 2000);
@@ -165,7 +165,7 @@ TEST(GroundPlates, TopsAreAboveLines) {
         EcefMesh drawn = mesh;
         const auto last = static_cast<std::uint32_t>(mesh.size() - 1);
         drawn.triangles.insert(drawn.triangles.end(), {last - 1, last, last});
-        known += expectBelowTops(random, tile, drawn, GroundPlates(tile.ellipsoid, mesh, tile.extents), 0.0);
+        known += expectBelowTops(random, tile, drawn, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
     }
     EXPECT_GT(known, 1200);
 }
@@ -178,7 +178,7 @@ TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
     for (int trial = 0; trial < 20; ++trial) {
         const std::uint32_t cells = trial % 2 == 0 ? 16 : 20, beyond = trial % 2 == 0 ? 1 : 2;
         const EcefMesh mesh = gridMesh(random, earth, extents, cells);
-        const GroundPlates plates(earth, mesh, extents);
+        const GroundPlates plates = platesOf(earth, mesh, extents);
         for (std::uint32_t part = 0; part < GroundPlates::kParts; ++part) {
             const std::uint32_t south = part / 8 * 2 + part / 2 % 2, west = part / 4 % 2 * 2 + part % 2;
             const auto first = [&](std::uint32_t strip) { return std::max(cells / 4 * strip, beyond) - beyond; };
@@ -196,7 +196,7 @@ TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
 TEST(GroundPlates, TopsAreNotKnownForBinsWithOtherParts) {
     Random random(1736);
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
-    const GroundPlates plates(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
+    const GroundPlates plates = platesOf(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
     const auto isKnown = [&](const Interval& latitude, const Interval& longitude, const Interval& altitude) {
         return std::isfinite(plates.most(3, GeodeticBin(latitude, longitude, altitude)));
     };

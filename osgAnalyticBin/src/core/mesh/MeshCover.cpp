@@ -66,13 +66,12 @@ public:
         // what is steep within the place is surface, too
         if (addSteep()) findEnds();
         cover.isFilled = endsAtBorders() && facesUpInTheMiddle();
+        cover.ends = _ends;
         cover.place =
             GeodeticBin(_latitude, {_longitude + _longitudes.lower, _longitude + _longitudes.upper}, {0.0, 0.0});
         if (_ends.empty()) cover.place = GeodeticBin({-0.5 * kPi, 0.5 * kPi}, {-kPi, kPi}, {0.0, 0.0});
         return cover;
     }
-
-    [[nodiscard]] const MeshCover::Ends& ends() const { return _ends; }
 
 private:
     // Vertices at one position count as one: triangles that share an edge may have vertices of their own. Returns:
@@ -337,12 +336,9 @@ private:
 
 }  // namespace
 
-MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error, Ends* ends) {
+MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error) {
     thread_local PerThread<CoverSearch::Memory> memory;
-    CoverSearch search(ellipsoid, mesh, error, *memory);
-    const MeshCover cover = search.run();
-    if (ends) *ends = search.ends();
-    return cover;
+    return CoverSearch(ellipsoid, mesh, error, *memory).run();
 }
 
 }  // namespace osgAnalyticBin::core

@@ -55,15 +55,16 @@ private:
     const std::vector<double>& _altitudes;
 };
 
-// The cells of a grid of plates that each row or column of cells between posts reaches into.
-std::vector<CellRange> rangesOf(const Interval& extents, std::size_t cells, std::size_t posts, double reach) {
-    std::vector<CellRange> ranges;
+// What each row or column of cells between posts reaches into.
+std::vector<MetCells> metBy(const Interval& extents, std::size_t posts, double reach) {
+    const CellsAlong along(extents);
     const double width = extents.width() / static_cast<double>(posts - 1);
+    std::vector<MetCells> met;
     for (std::size_t i = 0; i + 1 < posts; ++i) {
         const double from = extents.lower + width * static_cast<double>(i);
-        ranges.push_back(cellsIn(extents, cells, {from - reach, from + width + reach}));
+        met.push_back(along.met({from - reach, from + width + reach}));
     }
-    return ranges;
+    return met;
 }
 
 }  // namespace
@@ -90,39 +91,20 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const TriangleSides sides = TriangleSides::atAnyPoint(longest, walk, rise, radius);
     const double axisDistance = 0.95 * radius * std::cos(poleward);
     const TriangleReach reach(sides, ellipsoid, radius, axisDistance);
-    if (!TriangleReach::holdsFor(sides, radius, axisDistance, across, {altitude.lower - reach.sag, altitude.upper}))
-        return;
+    if (!TriangleReach::holdsFor(sides, radius, axisDistance, {altitude.lower - reach.sag, altitude.upper})) return;
     // columns keep out of the rims, which the outermost chords may cut
     const bool isWithinRims =
         reach.aside < kBorder * grid.latitude.width() && reach.around < kBorder * grid.longitude.width();
     if (!isWithinRims) return;
 
-    std::array<double, kNumbers> low;
-    low.fill(std::numeric_limits<double>::infinity());
-    for (const std::size_t side : kCellsOfGrids) {
-        const std::vector<CellRange> rows = rangesOf(grid.latitude, side, grid.rows, reach.aside);
-        const std::vector<CellRange> columns = rangesOf(grid.longitude, side, grid.columns, reach.around);
-        cells.forEach([&](std::size_t row, std::size_t column, const Interval& between) {
-            for (std::ptrdiff_t i = rows[row].first; i <= rows[row].last; ++i) {
-                for (std::ptrdiff_t j = columns[column].first; j <= columns[column].last; ++j) {
-                    double& bound = low[numberOf(side, static_cast<std::size_t>(i), static_cast<std::size_t>(j))];
-                    bound = std::min(bound, between.lower - reach.sag);
-                }
-            }
-        });
-    }
-    std::array<double, kParts> high;
-    high.fill(-std::numeric_limits<double>::infinity());
+    const std::vector<MetCells> rows = metBy(grid.latitude, grid.rows, reach.aside);
+    const std::vector<MetCells> columns = metBy(grid.longitude, grid.columns, reach.around);
+    PlateBounds found;
     cells.forEach([&](std::size_t row, std::size_t column, const Interval& between) {
-        const auto met = [](const Interval& extents, double width, std::size_t i, double beyond) -> Interval {
-            const double from = extents.lower + width * static_cast<double>(i);
-            return {from - beyond, from + width + beyond};
-        };
-        forEachPart(grid.latitude, grid.longitude, met(grid.latitude, along, row, reach.aside),
-                    met(grid.longitude, across, column, reach.around),
-                    [&](std::size_t part) { high[part] = std::max(high[part], between.upper); });
+        found.lower(rows[row], columns[column], between.lower - reach.sag);
+        found.raise(rows[row], columns[column], between.upper);
     });
-    encode(low, high, margin);
+    encode(found, margin);
     if (!mayHang(skirt)) _most.fill(0);
 }
 

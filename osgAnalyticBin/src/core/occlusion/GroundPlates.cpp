@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Codes of bounds: the first stands for what is not known.
 constexpr std::uint16_t kUnknown = 0, kFirstCode = 1, kLastCode = 65535;
 
-static_assert(kCellsOfGrids.back() == GroundPlates::kFinest);
+static_assert(kCellsOfGrids.back() == GroundPlates::kFinest && kStrips * kStrips == GroundPlates::kParts);
 
 }  // namespace
 
@@ -36,22 +36,27 @@ class GroundPlates::Builder {
 public:
     // `ends`: where its surface ends; elsewhere it covers all.
     Builder(GroundPlates& plates, const EcefMesh& mesh, const MeshCover::Ends& ends, double margin)
-        : _plates(plates), _mesh(mesh), _radius(0.9 * smallestCurvatureRadius(plates._ellipsoid)) {
-        _low.fill(kInfinity);
-        _high.fill(-kInfinity);
+        : _plates(plates), _mesh(mesh) {
         findVertices();
+        findReach();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
             addTriangle({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
-        for (const auto& [from, to] : ends) lower(boundsOf({from, to, to}), -kInfinity);
-        plates.encode(_low, _high, margin);
+        for (const auto& [from, to] : ends) {
+            const Met met = metBy({from, to, to});
+            _found.lower(met.rows, met.columns, -kInfinity);
+        }
+        plates.encode(_found, margin);
     }
 
 private:
     using Corners = std::array<std::uint32_t, 3>;
     struct Vertex {
-        glm::dvec3 position, up;
-        double latitude, longitude, altitude;  // the longitude from that of the middle
-        double axisDistance;
+        Geodetic place;  // the longitude in the same turn as those of the extents
+        MetCells rows, columns;
+    };
+    struct Met {
+        MetCells rows, columns;
+        Interval altitude;
     };
     // Keeps its memory from mesh to mesh.
     [[nodiscard]] static std::vector<Vertex>& vertices() {
@@ -61,113 +66,97 @@ private:
 
     void findVertices() {
         const double middle = _plates._longitude.middle();
-        _vertices.clear();
-        _vertices.reserve(_mesh.size());
+        _vertices.resize(_mesh.size());
         for (std::size_t i = 0; i < _mesh.size(); ++i) {
             const glm::dvec3 v = _mesh.vertex(i);
-            const Geodetic at = _plates._ellipsoid.toGeodetic(v);
-            const double axisDistance = axisDistanceOf(_plates._ellipsoid, v);
-            _vertices.push_back({v, upAt(v, at, axisDistance), at.latitude,
-                                 std::remainder(at.longitude - middle, 2.0 * kPi), at.altitude, axisDistance});
+            Geodetic& place = _vertices[i].place;
+            place = _plates._ellipsoid.toGeodetic(v);
+            place.longitude = middle + std::remainder(place.longitude - middle, 2.0 * kPi);
+            _nearest = std::min(_nearest, axisDistanceOf(_plates._ellipsoid, v));
+            _altitude.expandBy(place.altitude);
         }
     }
 
-    // As Ellipsoid::up(), with less trigonometry.
-    [[nodiscard]] glm::dvec3 upAt(const glm::dvec3& v, const Geodetic& place, double axisDistance) const {
-        if (_plates._ellipsoid.isPlane()) return {0.0, 0.0, 1.0};
-        const double share = axisDistance > 0.0 ? std::cos(place.latitude) / axisDistance : 0.0;
-        return {share * v.x, share * v.y, std::sin(place.latitude)};
-    }
-
-    [[nodiscard]] const glm::dvec3& positionOf(std::uint32_t vertex) const { return _vertices[vertex].position; }
-    [[nodiscard]] TriangleSides sidesOf(const Corners& c) const {
-        double longest2 = 0.0, horizontal2 = 0.0, vertical = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec3 side = positionOf(c[(i + 1) % 3]) - positionOf(c[i]);
-            const double rise = glm::dot(side, _vertices[c[0]].up), length2 = glm::dot(side, side);
-            longest2 = std::max(longest2, length2);
-            horizontal2 = std::max(horizontal2, length2 - rise * rise);
-            vertical = std::max(vertical, std::abs(rise));
+    // How far triangles reach beyond their corners at most, and what each vertex meets with that.
+    void findReach() {
+        const double radius = 0.9 * smallestCurvatureRadius(_plates._ellipsoid), axisDistance = 0.95 * _nearest;
+        const TriangleSides sides = longestSides(radius);
+        const TriangleReach reach(sides, _plates._ellipsoid, radius, axisDistance);
+        _isWithinReach =
+            TriangleReach::holdsFor(sides, radius, axisDistance, {_altitude.lower - reach.sag, _altitude.upper});
+        if (!_isWithinReach) return;
+        _sag = reach.sag;
+        for (Vertex& vertex : _vertices) {
+            const auto [latitude, longitude, altitude] = vertex.place;
+            vertex.rows = _along.met({latitude - reach.aside, latitude + reach.aside});
+            vertex.columns = _across.met({longitude - reach.around, longitude + reach.around});
         }
-        return TriangleSides::atAnyPoint(std::sqrt(longest2), std::sqrt(horizontal2), vertical, _radius);
     }
 
-    // Bounds of a triangle. Its longitudes are in the same turn as those of the extents.
-    [[nodiscard]] GeodeticBin boundsOf(const Corners& c) const {
-        const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
-        const auto range = [&](double Vertex::*of) -> Interval {
-            return {std::min({a.*of, b.*of, d.*of}), std::max({a.*of, b.*of, d.*of})};
-        };
-        const TriangleSides sides = sidesOf(c);
-        const Interval altitude = range(&Vertex::altitude), longitude = range(&Vertex::longitude);
-        const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
-        const TriangleReach reach(sides, _plates._ellipsoid, _radius, axisDistance);
-        const Interval lowered{altitude.lower - reach.sag, altitude.upper};
-        if (!TriangleReach::holdsFor(sides, _radius, axisDistance, longitude.width(), lowered))
-            return thoroughBoundsOf(c);
-        const Interval latitude = range(&Vertex::latitude);
-        const double middle = _plates._longitude.middle();
-        return GeodeticBin({latitude.lower - reach.aside, latitude.upper + reach.aside},
-                           {middle + longitude.lower - reach.around, middle + longitude.upper + reach.around}, lowered);
-    }
-
-    [[nodiscard]] GeodeticBin thoroughBoundsOf(const Corners& c) const {
-        GeodeticMeshBounds bounds(_plates._ellipsoid, _plates._longitude.middle());
-        for (const std::uint32_t corner : c) bounds.expandByVertex(positionOf(corner));
-        bounds.expandByTriangle(positionOf(c[0]), positionOf(c[1]), positionOf(c[2]));
-        return bounds.bin();
-    }
-
-    // Lowers the cells of all grids that the bounds reach into. Bounds that are not known reach into all, and bounds
-    // around the axis into those at all longitudes: they do not count longitudes from where the extents do.
-    void lower(const GeodeticBin& met, double altitude) {
-        const bool isAround = met.empty() || met.isFullCircle();
-        const Interval& latitude = met.empty() ? _plates._latitude : met.latitude();
-        for (const std::size_t cells : kCellsOfGrids) {
-            const CellRange rows = cellsIn(_plates._latitude, cells, latitude);
-            const CellRange columns =
-                cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
-            for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
-                for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column) {
-                    double& low =
-                        _low[numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column))];
-                    low = std::min(low, altitude);
-                }
+    // Of all triangles. Altitudes differ by a side's vertical part but for L²/2R.
+    [[nodiscard]] TriangleSides longestSides(double radius) const {
+        double longest2 = 0.0, horizontal2 = 0.0, rise = 0.0;
+        for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = _mesh.triangles[i + k], b = _mesh.triangles[i + (k + 1) % 3];
+                const glm::dvec3 side = _mesh.vertex(b) - _mesh.vertex(a);
+                const double length2 = glm::dot(side, side);
+                const double climb = std::abs(_vertices[b].place.altitude - _vertices[a].place.altitude);
+                const double vertical = std::max(0.0, climb - 0.5 * length2 / radius);
+                longest2 = std::max(longest2, length2);
+                horizontal2 = std::max(horizontal2, length2 - vertical * vertical);
+                rise = std::max(rise, climb);
             }
         }
+        return TriangleSides::atAnyPoint(std::sqrt(longest2), std::sqrt(horizontal2), rise + 0.5 * longest2 / radius,
+                                         radius);
     }
 
-    // For the parts that the bounds reach into.
-    void raise(const GeodeticBin& met) {
-        const bool isAround = met.empty() || met.isFullCircle();
-        const double top = met.empty() ? kInfinity : met.altitude().upper;
+    [[nodiscard]] Met metBy(const Corners& c) const {
+        if (!_isWithinReach) return thoroughlyMetBy(c);
+        const Vertex &p = _vertices[c[0]], &q = _vertices[c[1]], &r = _vertices[c[2]];
+        const auto [low, high] = std::minmax({p.place.altitude, q.place.altitude, r.place.altitude});
+        return {
+            p.rows.united(q.rows).united(r.rows), p.columns.united(q.columns).united(r.columns), {low - _sag, high}};
+    }
+
+    // Bounds that are not known reach into all cells, and bounds around the axis into those at all longitudes: they do
+    // not count longitudes from where the extents do.
+    [[nodiscard]] Met thoroughlyMetBy(const Corners& c) const {
         const Interval &latitude = _plates._latitude, &longitude = _plates._longitude;
-        forEachPart(latitude, longitude, met.empty() ? latitude : met.latitude(),
-                    isAround ? longitude : met.longitude(),
-                    [&](std::size_t part) { _high[part] = std::max(_high[part], top); });
+        GeodeticMeshBounds bounds(_plates._ellipsoid, longitude.middle());
+        for (const std::uint32_t corner : c) bounds.expandByVertex(_mesh.vertex(corner));
+        bounds.expandByTriangle(_mesh.vertex(c[0]), _mesh.vertex(c[1]), _mesh.vertex(c[2]));
+        const GeodeticBin bin = bounds.bin();
+        if (bin.empty()) return {_along.met(latitude), _across.met(longitude), {-kInfinity, kInfinity}};
+        return {_along.met(bin.latitude()), _across.met(bin.isFullCircle() ? longitude : bin.longitude()),
+                bin.altitude()};
     }
 
     void addTriangle(const Corners& c) {
         // an end of a line, which may run through all parts
         const bool isPoint = c[0] == c[1] && c[1] == c[2];
         if (isPoint) {
-            for (double& high : _high) high = std::max(high, _vertices[c[0]].altitude);
+            for (double& high : _found.high) high = std::max(high, _vertices[c[0]].place.altitude);
             return;
         }
-        const GeodeticBin bounds = boundsOf(c);
-        raise(bounds);
+        const Met met = metBy(c);
+        _found.raise(met.rows, met.columns, met.altitude.upper);
         // lines
-        const glm::dvec3 &p = positionOf(c[0]), &q = positionOf(c[1]), &r = positionOf(c[2]);
+        const glm::dvec3 p = _mesh.vertex(c[0]), q = _mesh.vertex(c[1]), r = _mesh.vertex(c[2]);
         if (p == q || q == r || r == p) return;
-        lower(bounds, bounds.empty() ? -kInfinity : bounds.altitude().lower);
+        _found.lower(met.rows, met.columns, met.altitude.lower);
     }
 
     GroundPlates& _plates;
     const EcefMesh& _mesh;
-    const double _radius;  // no larger than a radius of curvature at any point of the mesh
+    const CellsAlong _along{_plates._latitude}, _across{_plates._longitude};
     std::vector<Vertex>& _vertices = vertices();
-    std::array<double, kNumbers> _low;
-    std::array<double, kParts> _high;
+    double _nearest = kInfinity;  // metres from the axis
+    Interval _altitude = Interval::none();
+    bool _isWithinReach = false;
+    double _sag = 0.0;
+    PlateBounds _found;
 };
 
 GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
@@ -184,11 +173,10 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude,
     }
 }
 
-GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const MeshCover& cover,
+                           const GeodeticBin& extents, double margin)
     : GroundPlates(ellipsoid, extents.latitude(), extents.longitude()) {
-    if (extents.empty() || !mayStandBeside(margin)) return;
-    MeshCover::Ends ends;
-    if (MeshCover::of(ellipsoid, mesh, margin, &ends).isFilled) Builder(*this, mesh, ends, margin);
+    if (cover.isFilled && !extents.empty() && mayStandBeside(margin)) Builder(*this, mesh, cover.ends, margin);
 }
 
 // Whether a mesh that is drawn `margin` metres away from its place still covers what is within the rims.
@@ -207,8 +195,8 @@ double GroundPlates::narrowest() const noexcept {
 }
 
 // Rounds lower bounds down to 16 bits, and upper bounds up. Minus infinity: not known.
-void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::array<double, kParts>& high,
-                          double margin) noexcept {
+void GroundPlates::encode(const PlateBounds& found, double margin) noexcept {
+    const auto& [low, high] = found;
     // more than the error of altitudes
     const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
     Interval known = Interval::none();
@@ -221,7 +209,7 @@ void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::ar
     if (!(known.lower <= known.upper)) return;
     _step = known.width() / static_cast<double>(kLastCode - 4);
     _base = known.lower - 2.0 * _step;
-    for (std::size_t i = 0; i < kNumbers; ++i) {
+    for (std::size_t i = 0; i < low.size(); ++i) {
         if (!std::isfinite(low[i])) continue;
         const double code = std::floor((low[i] - room - _base) / _step);
         _least[i] = static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));

@@ -18,6 +18,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <tuple>
 
 namespace osgAnalyticBin::core {
 
@@ -44,46 +47,94 @@ inline constexpr double kBorder = kReachOfRim * kRim / static_cast<double>(kCell
     return firstNumber(cells) + row * cells + column;
 }
 
-/// The cells of a grid along one axis that an interval meets, first to last; first > last: none.
-struct CellRange {
-    std::ptrdiff_t first, last;
-};
+/// Of all grids together.
+inline constexpr std::size_t kPlateCells = firstNumber(2 * kCellsOfGrids.back());
 
-/// A cell counts where what is farther within its edges than kReachOfRim is met.
-[[nodiscard]] inline CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met) {
-    constexpr double kInset = kReachOfRim * kRim;
-    const auto most = static_cast<double>(cells);
-    const double perCell = most / extents.width();
-    const double from = (met.lower - extents.lower) * perCell + kInset;
-    const double end = (met.upper - extents.lower) * perCell - kInset + 1.0;
-    return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
-            static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
+/// The strips of parts along one axis.
+inline constexpr std::size_t kStrips = 4;
+/// The part in a row and a column of strips, from the south-west. Parts are numbered as in GroundPlates.
+[[nodiscard]] constexpr std::size_t partAt(std::size_t row, std::size_t column) {
+    return 4 * (row / 2 * 2 + column / 2) + row % 2 * 2 + column % 2;
 }
 
 /// What comes nearer to a part of the extents than this share of their width counts for it.
 inline constexpr double kRoomOfPart = 0.06;
 
-/// Calls visit(part) for each part of the extents that what lies between these latitudes and longitudes counts for.
-/// Parts are numbered as in GroundPlates; the outer ones have no outer border.
-template <class Visit>
-void forEachPart(const Interval& latitude, const Interval& longitude, const Interval& metLatitude,
-                 const Interval& metLongitude, Visit&& visit) {
-    const auto metStrips = [](const Interval& extents, const Interval& met) {
-        const double room = kRoomOfPart * extents.width(), quarter = 0.25 * extents.width();
-        std::array<bool, 4> areMet;
-        for (std::size_t i = 0; i < areMet.size(); ++i) {
-            const double from = extents.lower + quarter * static_cast<double>(i);
-            const bool isBelow = i + 1 < areMet.size() && met.lower > from + quarter + room;
-            areMet[i] = !isBelow && !(i > 0 && met.upper < from - room);
+/// What something meets along one axis of the extents: of the cells of each grid and, at last, of the strips.
+struct MetCells {
+    /// More than there are, for vectors.
+    using Numbers = std::array<std::uint8_t, 8>;
+    static constexpr std::size_t kOfParts = kCellsOfGrids.size();
+    static_assert(kOfParts < std::tuple_size<Numbers>::value);
+
+    Numbers first{}, end{};  ///< end <= first: none
+
+    [[nodiscard]] MetCells united(const MetCells& other) const {
+        MetCells both;
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            both.first[i] = std::min(first[i], other.first[i]);
+            both.end[i] = std::max(end[i], other.end[i]);
         }
-        return areMet;
-    };
-    const std::array<bool, 4> rows = metStrips(latitude, metLatitude), columns = metStrips(longitude, metLongitude);
-    for (std::size_t part = 0; part < rows.size() * columns.size(); ++part) {
-        const std::size_t quarter = part / 4, within = part % 4;
-        if (rows[quarter / 2 * 2 + within / 2] && columns[quarter % 2 * 2 + within % 2]) visit(part);
+        return both;
     }
-}
+};
+
+/// Finds what is met along one axis.
+class CellsAlong {
+public:
+    explicit CellsAlong(const Interval& extents) : _lower(extents.lower), _perWidth(1.0 / extents.width()) {}
+
+    /// A cell counts where what is farther within its edges than kReachOfRim is met, a part where what comes nearer
+    /// than kRoomOfPart is. The outer parts have no outer border. What is met by something is what is met by its ends.
+    [[nodiscard]] MetCells met(const Interval& between) const {
+        const double from = (between.lower - _lower) * _perWidth, to = (between.upper - _lower) * _perWidth;
+        MetCells met;
+        for (std::size_t i = 0; i < kCellsOfGrids.size(); ++i)
+            set(met, i, from, to, static_cast<double>(kCellsOfGrids[i]), kReachOfRim * kRim);
+        set(met, MetCells::kOfParts, std::min(from, 1.0), std::max(to, 0.0), kStrips, -kRoomOfPart * kStrips);
+        return met;
+    }
+
+private:
+    // `inset`: of a cell's width.
+    static void set(MetCells& met, std::size_t i, double from, double to, double cells, double inset) {
+        met.first[i] = static_cast<std::uint8_t>(std::min(std::max(0.0, from * cells + inset), cells));
+        met.end[i] = static_cast<std::uint8_t>(std::min(std::max(0.0, to * cells - inset + 1.0), cells));
+    }
+
+    double _lower, _perWidth;
+};
+
+/// Bounds of the altitudes in each cell and each part, while they are found.
+struct PlateBounds {
+    std::array<double, kPlateCells> low;
+    std::array<double, kStrips * kStrips> high;
+
+    PlateBounds() {
+        low.fill(std::numeric_limits<double>::infinity());
+        high.fill(-std::numeric_limits<double>::infinity());
+    }
+
+    void lower(const MetCells& rows, const MetCells& columns, double altitude) {
+        for (std::size_t i = 0; i < kCellsOfGrids.size(); ++i) {
+            for (std::size_t row = rows.first[i]; row < rows.end[i]; ++row) {
+                for (std::size_t column = columns.first[i]; column < columns.end[i]; ++column) {
+                    double& bound = low[numberOf(kCellsOfGrids[i], row, column)];
+                    bound = std::min(bound, altitude);
+                }
+            }
+        }
+    }
+    void raise(const MetCells& rows, const MetCells& columns, double altitude) {
+        constexpr std::size_t i = MetCells::kOfParts;
+        for (std::size_t row = rows.first[i]; row < rows.end[i]; ++row) {
+            for (std::size_t column = columns.first[i]; column < columns.end[i]; ++column) {
+                double& bound = high[partAt(row, column)];
+                bound = std::max(bound, altitude);
+            }
+        }
+    }
+};
 
 /// The sine and the cosine of the middle of some latitudes, then those of some longitudes.
 [[nodiscard]] inline std::array<double, 4> sinesOfMiddle(const Interval& latitude, const Interval& longitude) {
@@ -149,9 +200,9 @@ struct TriangleReach {
 
     /// Whether triangles are small enough for these bounds to hold.
     [[nodiscard]] static bool holdsFor(const TriangleSides& sides, double radius, double axisDistance,
-                                       double widthInLongitude, const Interval& altitude) {
-        return sides.longest <= 0.05 * std::min(axisDistance, radius) && widthInLongitude < 0.2 &&
-               altitude.lower > -0.1 * radius && altitude.upper < 0.1 * radius;
+                                       const Interval& altitude) {
+        return sides.longest <= 0.05 * std::min(axisDistance, radius) && altitude.lower > -0.1 * radius &&
+               altitude.upper < 0.1 * radius;
     }
 };
 

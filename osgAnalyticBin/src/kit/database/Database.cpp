@@ -27,7 +27,7 @@ void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, Install
     const osg::ref_ptr<osg::Node> kept(&mesh);
     const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
     const osg::EllipsoidModel& ellipsoid = *installed.database().ellipsoid();
-    core::MeshCover cover = coverOf({{kept}, ellipsoid, tile.getLocalToEcef(), shape});
+    core::MeshCover cover = groundOf({{kept}, ellipsoid, tile.getLocalToEcef(), shape}, false).cover;
     // the place of a tile that is vouched for is that of its bin, with its skirts
     const bool hasSkirts = areVouchedFor(tile.getCullOptions(), ellipsoid);
     const double share = hasSkirts ? core::MeshCover::kSkirtRoom : kPlaceRounding;
@@ -230,7 +230,8 @@ void Database::makePlates() {
             if (!isThere || !tile->getInstalledTile() || !ellipsoid()) continue;
         }
         const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
-        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
+        const TileMeshes meshes{{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape};
+        tile->getInstalledTile()->setPlates(groundOf(meshes, true).plates);
     }
     requestUpdate();
 }

@@ -429,22 +429,29 @@ private:
         placeCallback(tile, culled, *callback, *installed);
         if (fit.isDeclared) installed->doubt(InstalledTile::Declared);
         const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
-        if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
-            installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
+        const bool withPlates =
+            !canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted);
         ++_installed;
         noteDrawn(tile, *installed);
-        noteCover(tile, sources, fit, *installed);
+        noteGround(tile, {tile.meshes, ellipsoid, tile.frame.localToEcef, shape}, withPlates,
+                   coverWithoutMesh(sources, fit), *installed);
         noteCovered(tile, fit, *installed);
         visitChildren(tile, *installed);
     }
 
     // A tile that the application has added to a database with gaps, where the horizon is not given, hides nothing: its
     // mesh is not looked at so closely.
-    void noteCover(const FoundTile& tile, const FitSources& sources, const TileFit& fit, InstalledTile& installed) {
+    // `known`: what it is taken to cover in any case.
+    void noteGround(const FoundTile& tile, const TileMeshes& meshes, bool withPlates,
+                    const std::optional<core::MeshCover>& known, InstalledTile& installed) {
         const bool isBelowNone = _isReading && !_parent;
-        const bool isGiven = sources.options.horizonUse == HorizonUse::Given;
-        if (isBelowNone && !isGiven && database().has(Finding::Gap)) return;
-        const core::MeshCover cover = coverBy(tile, sources, database().fittedShape(), fit);
+        const bool isGiven = database().options().horizonUse == HorizonUse::Given;
+        const bool hidesNothing = isBelowNone && !isGiven && database().has(Finding::Gap);
+        TileGround ground;
+        if (withPlates || !(known || hidesNothing)) ground = groundOf(meshes, withPlates);
+        if (withPlates) installed.setPlates(std::move(ground.plates));
+        if (hidesNothing) return;
+        const core::MeshCover& cover = known ? *known : ground.cover;
         installed.setCover(cover);
         if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
     }

@@ -398,10 +398,11 @@ TileFit fitTile(const FoundTile& tile, const FitSources& from, const TerrainShap
     return Fitting(tile, from, shape).result();
 }
 
-core::MeshCover coverBy(const FoundTile& tile, const FitSources& from, const TerrainShape& shape, const TileFit& fit) {
-    if (areVouchedFor(from.options, from.ellipsoid)) return {fit.extents.bin, true};
-    if (from.options.horizonUse == HorizonUse::Off && from.options.occlusion == OcclusionUse::Off) return {};
-    return coverOf({tile.meshes, from.ellipsoid, tile.frame.localToEcef, shape});
+std::optional<core::MeshCover> coverWithoutMesh(const FitSources& from, const TileFit& fit) {
+    if (areVouchedFor(from.options, from.ellipsoid)) return core::MeshCover{fit.extents.bin, true};
+    if (from.options.horizonUse == HorizonUse::Off && from.options.occlusion == OcclusionUse::Off)
+        return core::MeshCover();
+    return std::nullopt;
 }
 
 bool isGround(const FoundTile& tile, const InstalledTile* parent, const TileFit& fit) {

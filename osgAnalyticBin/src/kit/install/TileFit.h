@@ -11,6 +11,7 @@
 #include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,10 +55,9 @@ struct TileFit {
 /// Source: doc/theory/tiles.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, const FitSources& from, const TerrainShape& shape);
 
-/// What a tile's own meshes cover: as its bin says where the database's horizon is given; nothing where neither the
-/// horizon nor occlusion is used.
-[[nodiscard]] core::MeshCover coverBy(const FoundTile& tile, const FitSources& from, const TerrainShape& shape,
-                                      const TileFit& fit);
+/// What a tile's own meshes are taken to cover whatever they are: as its bin says where the database's horizon is
+/// given; nothing where neither the horizon nor occlusion is used.
+[[nodiscard]] std::optional<core::MeshCover> coverWithoutMesh(const FitSources& from, const TileFit& fit);
 
 /// Whether a tile is ground, as its mesh tells: one of its drawables spans at least a 16th of the tile above in both
 /// directions. Leaves that hold objects on the ground alone, such as houses, do not; OSG culls them better.

@@ -20,19 +20,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 
 namespace osgAnalyticBin {
 
 namespace {
 
-bool isReadable(const osg::Drawable& drawable, bool withAnyDiagonal) {
-    const osg::Geometry* const geometry = drawable.asGeometry();
-    if (!geometry) return false;
-    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::none_of(sets.begin(), sets.end(), [withAnyDiagonal](const osg::ref_ptr<osg::PrimitiveSet>& set) {
-        const bool isOfQuads = set->getMode() == GL_QUADS || set->getMode() == GL_QUAD_STRIP;
-        return set->getMode() == GL_POLYGON || (isOfQuads && !withAnyDiagonal);
+bool hasPrimitives(const osg::Geometry& geometry, std::initializer_list<GLenum> modes) {
+    const osg::Geometry::PrimitiveSetList& sets = geometry.getPrimitiveSetList();
+    return std::any_of(sets.begin(), sets.end(), [&modes](const osg::ref_ptr<osg::PrimitiveSet>& set) {
+        return std::find(modes.begin(), modes.end(), set->getMode()) != modes.end();
     });
 }
 
@@ -42,14 +40,15 @@ constexpr double kFloatRounding = 1.1e-7;
 // Puts the meshes of all parts of a tile together. An osgTerrain tile has to be the only part.
 class MeshUnion final : public SurfaceWalk {
 public:
-    // `withAnyDiagonal`: quads, too, whose diagonals the graphics driver chooses.
-    MeshUnion(const TileMeshes& meshes, osg::Node& node, bool withAnyDiagonal, core::EcefMesh& mesh)
-        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _withAnyDiagonal(withAnyDiagonal), _mesh(mesh) {
+    MeshUnion(const TileMeshes& meshes, osg::Node& node, core::EcefMesh& mesh)
+        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _mesh(mesh) {
         node.accept(*this);
         if (_posts && !_mesh.triangles.empty()) giveUp();
     }
 
     [[nodiscard]] bool isMesh() const { return isKnown() && !_mesh.triangles.empty(); }
+    // Whether no triangle is half of a quad, whose diagonal the graphics driver chooses.
+    [[nodiscard]] bool hasGivenTriangles() const { return isMesh() && !_hasQuads; }
     // By how much float vertices are rounded.
     [[nodiscard]] double rounding() const { return kFloatRounding * _farthest; }
     // How far from its place the mesh may be drawn.
@@ -70,8 +69,11 @@ private:
     void visit(osg::Drawable& drawable) override {
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& part = *kept;
-        if (!isReadable(drawable, _withAnyDiagonal) || !readMesh(drawable, localToEcef(), part)) return giveUp();
+        const osg::Geometry* const geometry = drawable.asGeometry();
+        if (!geometry || hasPrimitives(*geometry, {GL_POLYGON}) || !readMesh(drawable, localToEcef(), part))
+            return giveUp();
         if (part.triangles.empty()) return;
+        _hasQuads = _hasQuads || hasPrimitives(*geometry, {GL_QUADS, GL_QUAD_STRIP});
         dropUnusedVertices(part);
         _farthest = std::max(_farthest, farthestVertex(part, localToEcef()));
         const auto first = static_cast<std::uint32_t>(_mesh.size());
@@ -82,8 +84,8 @@ private:
     }
 
     const TileMeshes& _meshes;
-    const bool _withAnyDiagonal;
     core::EcefMesh& _mesh;
+    bool _hasQuads = false;
     std::optional<TerrainPosts> _posts;
     double _farthest = 0.0;  // of a vertex from the origin of its frame
 };
@@ -116,49 +118,53 @@ bool hasGround(const TileMeshes& meshes) {
     return hasValidRadii(meshes.ellipsoid) || isMapPlane(meshes.ellipsoid);
 }
 
-core::MeshCover coverOf(const TileMeshes& meshes, osg::Node& node) {
-    if (auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
-        const bool isInFrame = meshes.localToEcef.isIdentity();
-        const auto extents = isInFrame ? terrainExtents(*terrain, meshes.ellipsoid) : std::nullopt;
-        return extents ? core::MeshCover{*extents, meshes.shape.isKnown()} : core::MeshCover();
-    }
-    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
-    core::EcefMesh mesh;
-    const MeshUnion parts(meshes, node, true, mesh);
-    return parts.isMesh() ? core::MeshCover::of(globe, mesh, parts.rounding()) : core::MeshCover();
-}
-
-}  // namespace
-
-std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
-    if (meshes.nodes.size() != 1 || !hasGround(meshes)) return nullptr;
-    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
-    core::EcefMesh mesh;
-    const MeshUnion parts(meshes, *meshes.nodes.front(), false, mesh);
+std::unique_ptr<const core::GroundPlates> platesOf(const MeshUnion& parts, const core::Ellipsoid& globe,
+                                                   const core::EcefMesh& mesh, const core::MeshCover& cover) {
     const double error = parts.drawingError(globe);
     std::unique_ptr<const core::GroundPlates> plates;
     if (const TerrainPosts* const posts = parts.posts()) {
         plates = std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error,
                                                             posts->skirt);
-    } else if (parts.isMesh()) {
+    } else if (parts.hasGivenTriangles() && cover.isFilled) {
         const core::MeshBounds bounds(globe, mesh);
         if (bounds.bin().empty() || bounds.touchesAxis()) return nullptr;
-        plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error);
+        plates = std::make_unique<const core::GroundPlates>(globe, mesh, cover, bounds.bin(), error);
     }
     return plates && plates->isKnown() ? std::move(plates) : nullptr;
 }
 
-core::MeshCover coverOf(const TileMeshes& meshes) {
-    core::MeshCover cover;
-    if (!hasGround(meshes)) return cover;
+TileGround groundOf(const TileMeshes& meshes, osg::Node& node, bool withPlates) {
+    TileGround ground;
+    auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    if (terrain) {
+        const bool isInFrame = meshes.localToEcef.isIdentity();
+        const auto extents = isInFrame ? terrainExtents(*terrain, meshes.ellipsoid) : std::nullopt;
+        if (extents) ground.cover = {*extents, meshes.shape.isKnown()};
+        if (!withPlates) return ground;
+    }
+    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
+    core::EcefMesh mesh;
+    const MeshUnion parts(meshes, node, mesh);
+    if (!terrain && parts.isMesh()) ground.cover = core::MeshCover::of(globe, mesh, parts.rounding());
+    if (withPlates) ground.plates = platesOf(parts, globe, mesh, ground.cover);
+    return ground;
+}
+
+}  // namespace
+
+TileGround groundOf(const TileMeshes& meshes, bool withPlates) {
+    TileGround ground;
+    if (!hasGround(meshes)) return ground;
     for (const osg::ref_ptr<osg::Node>& node : meshes.nodes) {
-        const core::MeshCover own = coverOf(meshes, *node);
+        TileGround own = groundOf(meshes, *node, withPlates && meshes.nodes.size() == 1);
+        const core::GeodeticBin above = ground.cover.place;
         const bool isFilled =
-            own.isFilled && (cover.place.empty() || (cover.isFilled && isSamePlace(cover.place, own.place)));
-        cover = {own.place, isFilled};
+            own.cover.isFilled && (above.empty() || (ground.cover.isFilled && isSamePlace(above, own.cover.place)));
+        ground = std::move(own);
+        ground.cover.isFilled = isFilled;
         if (!isFilled) break;
     }
-    return cover;
+    return ground;
 }
 
 bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b, double share) {
@@ -178,9 +184,9 @@ bool areVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellips
 bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh) {
     if (meshes.nodes.size() != 1) return false;
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
-    const MeshUnion parts(meshes, *meshes.nodes.front(), false, mesh);
+    const MeshUnion parts(meshes, *meshes.nodes.front(), mesh);
     if (const TerrainPosts* const posts = parts.posts()) appendTriangles(*posts, globe, mesh);
-    return parts.posts() || parts.isMesh();
+    return parts.posts() || parts.hasGivenTriangles();
 }
 
 }  // namespace osgAnalyticBin

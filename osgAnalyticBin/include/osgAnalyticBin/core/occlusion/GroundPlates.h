@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
 
 #include <glm/vec3.hpp>
 
@@ -18,6 +19,8 @@
 #include <vector>
 
 namespace osgAnalyticBin::core {
+
+struct PlateBounds;
 
 /// Convex bodies within the earth below a terrain's surface, in rows of numbers for vectors: each is the hull of the
 /// corners of a cell, in metres, in the frame that GroundPlates::columns() was given.
@@ -50,12 +53,13 @@ public:
     /// Nothing is known.
     GroundPlates() noexcept;
 
-    /// Of a mesh that lies within the extents; their altitudes are ignored. Nothing is known unless the mesh fills its
-    /// place (MeshCover); a cell is known where no end of the mesh reaches into it. `margin`: how many metres away from
-    /// its place the mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than a tenth
-    /// of a rim.
-    /// Cost: some 0.3 microseconds for each triangle. Requires: indices within the vertices.
-    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
+    /// Of a mesh that lies within the extents; their altitudes are ignored. `cover`: MeshCover::of() the mesh. Nothing
+    /// is known unless the mesh fills its place; a cell is known where no end of the mesh reaches into it. `margin`:
+    /// how many metres away from its place the mesh may be drawn. Bounds are lowered by the margin. Nothing is known if
+    /// it is wider than a tenth of a rim. Cost: some 0.1 microseconds for each triangle. Requires: indices within the
+    /// vertices.
+    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const MeshCover& cover, const GeodeticBin& extents,
+                 double margin = 0.0);
 
     /// Of a grid with triangles between its posts, the diagonal of each of its cells either way, front faces up.
     /// `altitudes`: metres, of the posts, row by row from the south-west; `margin` as above; `skirt`: how many metres
@@ -109,9 +113,8 @@ private:
     [[nodiscard]] bool mayHang(double skirt) const noexcept;
     [[nodiscard]] bool hasPartsOf(const GeodeticBin& bin) const noexcept;
     [[nodiscard]] double top(std::size_t part) const noexcept;
-    // `high`: of the parts, infinity where not known.
-    void encode(const std::array<double, kNumbers>& low, const std::array<double, kParts>& high,
-                double margin) noexcept;
+    // `found`: infinity for parts that are not known.
+    void encode(const PlateBounds& found, double margin) noexcept;
     void raise(std::size_t part, double altitude) noexcept;
 
     [[nodiscard]] double decoded(std::uint16_t code) const noexcept {
