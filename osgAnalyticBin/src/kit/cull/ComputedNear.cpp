@@ -202,19 +202,18 @@ bool ComputedNear::addKept(osgUtil::CullVisitor& visitor, DepthSearch& search) {
     for (const ShownTile& tile : _selection->shown()) {
         if (tile.kept == TileSelection::kNone) continue;
         mayShow[tile.kept] = true;
-        shows[tile.kept] =
-            tile.isSure && all[tile.kept].undecided == 0 && tile.member && tile.member->isMesh(*tile.mesh);
+        shows[tile.kept] = tile.isSure && tile.member && tile.member->isMesh(*tile.mesh);
     }
     _depths.reserve(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         const TileSelection::Kept& kept = all[i];
-        const auto mesh = kept.member ? kept.member->farthest(visitor) : std::nullopt;
+        const auto mesh = kept.member ? kept.member->farthest(visitor, kept.undecided) : std::nullopt;
         search.begin(mesh ? kept.member : nullptr);
         const bool isAll = mesh && kept.way == TileSelection::Way::Mesh;
         if (!isAll && !search.add(*kept.node, toEye)) return false;
         const bool isMeshDrawn = mesh && (mayShow[i] || !kept.isSearched);
-        _depths.push_back(isMeshDrawn ? std::max(*mesh, search.farthest()) : search.farthest());
-        if (mesh && shows[i]) _drawn = std::max(_drawn, *mesh);
+        _depths.push_back(isMeshDrawn ? std::max(mesh->all, search.farthest()) : search.farthest());
+        if (mesh && shows[i]) _drawn = std::max(_drawn, mesh->drawn);
     }
     return true;
 }

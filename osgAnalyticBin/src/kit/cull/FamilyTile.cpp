@@ -124,6 +124,17 @@ bool isOutside(const osg::BoundingBox& box, const osg::Plane& plane, const osg::
     return farthest < -kRounding * size;
 }
 
+// Whether it is outside of one of the undecided planes. `frame`: the box's; null: the visitor's.
+bool isBesideFrustum(osgUtil::CullVisitor& visitor, const osg::BoundingBox& box, const osg::Matrix* frame,
+                     core::PlaneMask undecided) {
+    if (undecided == 0 || !box.valid()) return false;
+    const osg::Polytope::PlaneList& planes = visitor.getCurrentCullingSet().getFrustum().getPlaneList();
+    for (std::size_t i = 0; undecided != 0 && i < planes.size(); ++i, undecided >>= 1) {
+        if ((undecided & 1) != 0 && isOutside(box, planes[i], frame)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 // Delivers drawables in the frame of the visitor, or of one transform in it.
@@ -183,22 +194,12 @@ private:
     // As osgUtil::CullVisitor::apply(osg::Drawable&).
     void draw(osg::Geometry& geometry) {
         const osg::BoundingBox& box = geometry.getBoundingBox();
-        if (geometry.isCullingActive() && isBesideFrustum(box)) return;
+        if (geometry.isCullingActive() && isBesideFrustum(_visitor, box, _frame, _undecided)) return;
         if (box.valid() && !countsForNearFar(geometry)) return;
         const float depth = box.valid() ? depthOf(box.center()) : 0.0f;
         if (std::isnan(depth)) return;
         const StateScope state(_visitor, geometry.getStateSet());
         _visitor.addDrawableAndDepth(&geometry, _matrix, depth);
-    }
-
-    [[nodiscard]] bool isBesideFrustum(const osg::BoundingBox& box) const {
-        if (_undecided == 0 || !box.valid()) return false;
-        const osg::Polytope::PlaneList& planes = _visitor.getCurrentCullingSet().getFrustum().getPlaneList();
-        core::PlaneMask undecided = _undecided;
-        for (std::size_t i = 0; undecided != 0 && i < planes.size(); ++i, undecided >>= 1) {
-            if ((undecided & 1) != 0 && isOutside(box, planes[i], _frame)) return true;
-        }
-        return false;
     }
 
     // Returns: false where OSG leaves the drawable out because it is behind the eye.
@@ -343,15 +344,18 @@ bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) 
     return true;
 }
 
-std::optional<double> FamilyTile::farthest(const osgUtil::CullVisitor& visitor) const {
+std::optional<FamilyTile::Depths> FamilyTile::farthest(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const {
     if (!_isDrawn || !isMeshAsKnown(visitor, visitor)) return std::nullopt;
     const osg::Matrixd& modelView = *visitor.getModelViewMatrix();
-    double farthest = -std::numeric_limits<double>::infinity();
+    constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+    Depths farthest{kNowhere, kNowhere};
     const auto add = [&](const osg::Drawable& drawable, const osg::MatrixTransform* transform) {
         const osg::BoundingBox& box = drawable.getBoundingBox();
         if (!box.valid()) return;
-        const double depth = farthestDepth(box, transform ? transform->getMatrix() * modelView : modelView);
-        farthest = std::max(farthest, depth);
+        const osg::Matrixd* const frame = transform ? &transform->getMatrix() : nullptr;
+        const double depth = farthestDepth(box, frame ? *frame * modelView : modelView);
+        farthest.all = std::max(farthest.all, depth);
+        if (!isBesideFrustum(visitor, box, frame, undecided)) farthest.drawn = std::max(farthest.drawn, depth);
     };
     if (_parts.front().kind == Kind::Terrain) {
         const auto* const mesh = madeMesh(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), visitor);

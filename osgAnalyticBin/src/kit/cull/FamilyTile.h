@@ -68,9 +68,13 @@ public:
     [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);
     /// Draws the mesh; boxes are tested against the undecided planes. Returns: false where the mesh is left to OSG.
     [[nodiscard]] bool draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const;
-    /// How far from the plane of the eye the mesh is drawn: farthestDepth() of its boxes. Returns: nullopt where draw()
-    /// leaves the mesh to OSG; minus infinity where it has no box.
-    [[nodiscard]] std::optional<double> farthest(const osgUtil::CullVisitor& visitor) const;
+    /// How far from the plane of the eye the mesh is drawn: farthestDepth() of its boxes, minus infinity where it has
+    /// none.
+    struct Depths {
+        double all, drawn;  ///< of all boxes, and of those that draw() does not find outside of the undecided planes
+    };
+    /// Returns: nullopt where draw() leaves the mesh to OSG.
+    [[nodiscard]] std::optional<Depths> farthest(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const;
     /// Whether OSG's test of the mesh's sphere has to be left out: OSG makes that of an osgTerrain tile without the
     /// vertical scale. Requires: a mesh.
     [[nodiscard]] bool isEnteredUntested(const osgUtil::CullVisitor& visitor) const;

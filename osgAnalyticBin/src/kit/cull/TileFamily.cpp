@@ -14,6 +14,7 @@
 #include "InstalledBin.h"
 
 #include <osg/CoordinateSystemNode>
+#include <osgTerrain/Terrain>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,7 +31,7 @@ const TileFamily* familyOf(const osg::Node& node) {
 
 // Whether a node enters all of its children and does nothing else.
 bool isPlain(const osg::Node& node) {
-    return isOneOf<osg::Group, osg::CoordinateSystemNode>(node);
+    return isOneOf<osg::Group, osg::CoordinateSystemNode, osgTerrain::Terrain>(node);
 }
 
 // Whether a subgraph holds tiles that are missed when they are taken away. Requires: its groups have their families.

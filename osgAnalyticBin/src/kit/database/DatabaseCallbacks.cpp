@@ -129,7 +129,7 @@ constexpr const char* kNoGaps = "meshes that cover the globe or a rectangle with
 constexpr const char* kPerspective = "a perspective camera with a depth buffer of 24 bits";
 constexpr const char* kEyeOver = "an eye over the database";
 constexpr const char* kPlanes = "near and far planes that OSG computes by bounding volumes, or that are set";
-constexpr const char* kWhole = "near and far planes that are set, or a tile that is in view as a whole";
+constexpr const char* kDrawn = "near and far planes that are set, or a tile that is surely drawn";
 constexpr const char* kDepths =
     "near and far planes that are set, or nothing but plain nodes and the tiles in the scene";
 
@@ -173,7 +173,7 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Databas
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
         if (unknown) reportUnknownNearPlane(database, unknown);
         if (!computed || !(computed->least() > 0.0)) {
-            view.traversal.statistics().setNotCovered(computed ? kWhole : kDepths, visitor.getTraversalNumber());
+            view.traversal.statistics().setNotCovered(computed ? kDrawn : kDepths, visitor.getTraversalNumber());
             noteHidden({}, last);
             return nullptr;
         }
