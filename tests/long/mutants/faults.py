@@ -594,7 +594,7 @@ FAULTS = [
           "hasBit(siblings.kept, number) && _visitor.validNodeMask(node)", "hasBit(siblings.kept, number)",
           NODE, "TileFamily.*"),
     Fault("entry: boxes of meshes are tested in the tile's frame", "src/kit/cull/FamilyTile.cpp",
-          "isOutside(box, planes[i], _frame)", "isOutside(box, planes[i], nullptr)", SCENES, RANDOM),
+          "isOutside(box, planes[i], frame)", "isOutside(box, planes[i], nullptr)", SCENES, RANDOM),
     Fault("entry: near and far planes look along another frame", "src/kit/cull/FamilyTile.cpp",
           "if (_frame) OpenVisitor::setCorners(_visitor, *_matrix);", "", SCENES, NAMED),
     Fault("entry: parts of a mesh are no small features", "src/kit/cull/FamilyTile.cpp",
