@@ -198,8 +198,8 @@ private:
         std::vector<glm::dvec3> polygon, clipped;
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
             const std::uint32_t* const corners = &mesh.triangles[i];
-            const auto [least, greatest] = std::minmax({forward[corners[0]], forward[corners[1]], forward[corners[2]]});
-            if (least > reach + margin.y || greatest < -margin.y) continue;
+            const double p = forward[corners[0]], q = forward[corners[1]], r = forward[corners[2]];
+            if (std::min(p, std::min(q, r)) > reach + margin.y || std::max(p, std::max(q, r)) < -margin.y) continue;
             polygon.clear();
             for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
             for (const HalfSpace& half : wedge) {

@@ -9,11 +9,14 @@
 #include "../surface/SurfaceMesh.h"
 #include "../surface/SurfaceWalk.h"
 
+#include <glm/geometric.hpp>
 #include <osg/Drawable>
 #include <osgTerrain/TerrainTechnique>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -25,7 +28,13 @@ class VerticalSearch final : public SurfaceWalk {
 public:
     // `bottom`: metres, less than 0, down to which triangles are looked for.
     VerticalSearch(const osg::Matrixd& localToEcef, const glm::dvec3& point, const glm::dvec3& up, double bottom)
-        : SurfaceWalk(localToEcef), _point(point), _up(up), _highest(bottom) {}
+        : SurfaceWalk(localToEcef),
+          _point(point),
+          _up(up),
+          _right(glm::normalize(glm::cross(up, std::abs(up.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)))),
+          _ahead(glm::cross(up, _right)),
+          _rounding(1e-12 * glm::length(point)),
+          _highest(bottom) {}
 
     // Whether there is one, and the point is above it.
     [[nodiscard]] bool isBelow() const { return isKnown() && _hasTriangle && _highest < 0.0; }
@@ -45,9 +54,19 @@ private:
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from mesh to mesh
         SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
-        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
-            add({mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
-                 mesh.vertex(mesh.triangles[i + 2])});
+        _sides.resize(mesh.x.size());
+        for (std::size_t i = 0; i < _sides.size(); ++i) _sides[i] = sidesOf(mesh.vertex(i) - _point);
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+            const std::uint32_t a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
+            if ((_sides[a] & _sides[b] & _sides[c]) == 0) add({mesh.vertex(a), mesh.vertex(b), mesh.vertex(c)});
+        }
+    }
+
+    // The sides of the vertical that what is `from` its point is surely on, one bit for each.
+    [[nodiscard]] std::uint8_t sidesOf(const glm::dvec3& from) const {
+        const double right = glm::dot(from, _right), ahead = glm::dot(from, _ahead);
+        return static_cast<std::uint8_t>(unsigned{right > _rounding} | unsigned{right < -_rounding} << 1U |
+                                         unsigned{ahead > _rounding} << 2U | unsigned{ahead < -_rounding} << 3U);
     }
 
     void add(const core::TriangleCorners& triangle) {
@@ -60,7 +79,9 @@ private:
         _triangle = triangle;
     }
 
-    const glm::dvec3 _point, _up;
+    const glm::dvec3 _point, _up, _right, _ahead;
+    const double _rounding;  // metres, of vertices' distances from planes through the vertical
+    std::vector<std::uint8_t> _sides;
     double _highest;  // metres above the point
     bool _hasTriangle = false;
     core::TriangleCorners _triangle{};
