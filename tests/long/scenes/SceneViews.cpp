@@ -255,7 +255,7 @@ ViewSpec randomView(Random& random, const Description& description, int frame) {
     const bool isUpright = (along ^ look.up).length() > 0.01 * along.length() && random.chance(0.7);
     view.view = osg::Matrixd::lookAt(look.eye, look.center, isUpright ? look.up : vectorOf(random.direction()));
     view.projection = anyProjection(random, look, farthest);
-    if (random.chance(0.15)) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    if (random.chance(0.3)) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
     const double mode = random.uniform();
     if (mode > 0.8) view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
     if (mode > 0.88) view.cullingMode = osg::CullSettings::NO_CULLING;
