@@ -670,6 +670,8 @@ FAULTS = [
     Fault("nobody watches over the watches of tiles in groups without one", "src/kit/install/ContentWatch.cpp",
           "if (!watchOf(child) && TileFamily::holds(node, i)) forEachPart(child, keepUnwatchedVisible);", "", NODE,
           "InGroups*"),
+    Fault("tiles whose watch is replaced hide as before", "src/kit/install/ContentWatch.cpp",
+          "    doubtMeshOf(node, false);\n    if (isBelowDatabase(node))", "    if (isBelowDatabase(node))", SCENES, NAMED),
     Fault("nobody watches over the watch of the root", "src/kit/database/DatabaseCallbacks.cpp",
           "if (!BoundWatch::isOn(node)) {", "if (false) {", NODE, "InGroups*"),
     Fault("tiles are missed in plain groups alone", "src/kit/cull/TileFamily.cpp",

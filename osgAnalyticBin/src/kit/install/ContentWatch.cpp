@@ -298,11 +298,12 @@ void noteMoreThanMesh(const osg::Node& node) {
         installedTileOf(*culled)->doubt(InstalledTile::MoreThanMesh);
 }
 
-// The application has replaced the watch of a tile: the next update places it anew.
+// The application has replaced the watch of a tile, and perhaps the mesh: the next update places it anew.
 void keepUnwatchedVisible(const osg::Node& node) {
     const AnalyticBinCullCallback* const tile = installedBinOf(node);
     if (!tile || watchOf(node)) return;
     tile->getInstalledTile()->doubt(InstalledTile::Outgrown);
+    doubtMeshOf(node, false);
     if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 
