@@ -672,6 +672,8 @@ FAULTS = [
           "InGroups*"),
     Fault("tiles whose watch is replaced hide as before", "src/kit/install/ContentWatch.cpp",
           "    doubtMeshOf(node, false);\n    if (isBelowDatabase(node))", "    if (isBelowDatabase(node))", SCENES, NAMED),
+    Fault("spheres count where OSG does not test them", "src/kit/cull/CullScopes.h",
+          "    if (!node.isCullingActive()) return false;\n    osg::Polytope& frustum", "    osg::Polytope& frustum", SCENES, NAMED),
     Fault("nobody watches over the watch of the root", "src/kit/database/DatabaseCallbacks.cpp",
           "if (!BoundWatch::isOn(node)) {", "if (false) {", NODE, "InGroups*"),
     Fault("tiles are missed in plain groups alone", "src/kit/cull/TileFamily.cpp",

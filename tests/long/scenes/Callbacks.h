@@ -96,13 +96,14 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 };
 
-/// Says what OSG says without it, or that the node is elsewhere, or small.
+/// Says what OSG says without it, or that the node is elsewhere, or small, or nothing at all.
 class OwnBound : public Cloned<OwnBound, osg::Node::ComputeBoundingSphereCallback> {
 public:
-    enum Kind { Right, Elsewhere, Small };
+    enum Kind { Right, Elsewhere, Small, Unknown };
     explicit OwnBound(Kind kind = Right) : _kind(kind) {}
     [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override {
         const osg::BoundingSphere bound = node.computeBound();
+        if (_kind == Unknown) return {};
         return {bound.center() * (_kind == Elsewhere ? 20.0f : 1.0f), _kind == Small ? 1.0f : bound.radius()};
     }
 

@@ -191,7 +191,13 @@ private:
         if (_random.chance(0.3)) addGroupTree();
         const bool isCleared = _random.chance(0.4);
         const int frame = isCleared ? _random.integer(1, _frames) : anyFrame();
-        if (!isCleared || _random.chance(0.3)) add(PartKind::BoundCallback, _random.pick(kHooks)).frame = frame;
+        if (!isCleared || _random.chance(0.3)) {
+            Part& bound = add(PartKind::BoundCallback, _random.pick(kHooks));
+            bound.frame = frame;
+            if (bound.hook == Hook::Tile) bound.variant = _random.integer(0, 3);
+            // what has a false sphere is not to be culled
+            if (bound.variant > 0) add(PartKind::CullingOff, Hook::Tile).frame = frame;
+        }
         if (isCleared) add(PartKind::NoBoundCallback, _random.pick(kHooks)).frame = frame;
         if (hasTerrain() || database().storesBins || _tile.level > 0) return;
         Part& tower = add(PartKind::Tower, _random.chance(0.5) ? Hook::Own : Hook::Geode);

@@ -69,14 +69,15 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.setResultMask(planes);
 }
 
-/// OSG's whole test of a sphere against the undecided planes of the current culling set. Those that have it inside are
-/// cleared.
+/// OSG's whole test of a node's sphere against the undecided planes of the current culling set. Those that have it
+/// inside are cleared.
 [[nodiscard]] inline bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask& undecided,
-                                         const osg::BoundingSphere& sphere) {
+                                         const osg::Node& node) {
+    if (!node.isCullingActive()) return false;
     osg::Polytope& frustum = cullingSet.getFrustum();
     const core::PlaneMask before = frustum.getCurrentMask();
     setUndecided(frustum, undecided);
-    const bool isCulled = cullingSet.isCulled(sphere);
+    const bool isCulled = cullingSet.isCulled(node.getBound());
     undecided = frustum.getResultMask();
     setUndecided(frustum, before);
     return isCulled;

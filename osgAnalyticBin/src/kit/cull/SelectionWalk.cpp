@@ -166,8 +166,7 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     if (first >= family.size()) return 0;
     forEachBit(verdicts.members & ~culled & family.block().partFrom(first).withSpheres, [&](unsigned int number) {
         core::PlaneMask undecided = verdicts.planes.undecided[number];
-        if (isSphereCulled(cullingSet, undecided, family.node(first + number).getBound()))
-            culled |= std::uint64_t{1} << number;
+        if (isSphereCulled(cullingSet, undecided, family.node(first + number))) culled |= std::uint64_t{1} << number;
     });
     if (_view.gain) countGain(family, first, verdicts.members, culled);
     return verdicts.members & ~culled;
@@ -180,8 +179,7 @@ void SelectionWalk::countGain(const TileFamily& family, unsigned int first, std:
     forEachBit(members, [&](unsigned int number) {
         const osg::Node& node = family.node(first + number);
         core::PlaneMask undecided = _undecided;
-        const bool isInView = !node.isCullingActive() ||
-                              !isSphereCulled(_view.cullStack.getCurrentCullingSet(), undecided, node.getBound());
+        const bool isInView = !isSphereCulled(_view.cullStack.getCurrentCullingSet(), undecided, node);
         const bool isKept = !hasBit(culled, number);
         if (isKept || isInView) gain.count(isKept);
         if (isKept && !isInView) ++gain.mended;
@@ -334,8 +332,7 @@ void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     const Scoped doubtful(_isDoubtful, _isDoubtful || isTooSmall);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (_searches && isLeftOut(node)));
     core::PlaneMask left = _undecided;
-    const bool isCulled =
-        node.isCullingActive() && isSphereCulled(_view.cullStack.getCurrentCullingSet(), left, node.getBound());
+    const bool isCulled = isSphereCulled(_view.cullStack.getCurrentCullingSet(), left, node);
     const Scoped keeps(_keeps, _keeps && !isCulled);
     if (!_keeps && !_searches) return;
     const Scoped undecided(_undecided, left);
