@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/LOD>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/Optimizer>
 #include <osgUtil/StateGraph>
@@ -240,6 +242,52 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
         EXPECT_TRUE(globe.drawsAntipode()) << i;
         update(*globe.root);
     }
+}
+
+// Vertices may change in each frame: the family is not made anew for that.
+TEST(TileFamily, StaysWhereMeshesChange) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    const osg::ref_ptr<osg::Callback> last = globe.root->getCullCallback()->getNestedCallback();
+    osg::Geometry& geometry = *drawableOf(*globe.tiles[19])->asGeometry();
+    geometry.getVertexArray()->dirty();
+    geometry.dirtyBound();
+    EXPECT_TRUE(globe.drawsAntipode());
+    update(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+    EXPECT_EQ(globe.root->getCullCallback()->getNestedCallback(), last);
+}
+
+// Levels of detail among tiles, which count how often they are looked at.
+struct CountedLevels : osg::LOD {
+    osg::Group* asGroup() override { return this; }
+    const osg::Group* asGroup() const override {
+        ++looks;
+        return this;
+    }
+    mutable int looks = 0;
+};
+
+TEST(TileFamily, IsLookedThroughOnceForManyMeshes) {
+    const auto looksFor = [](int changed) {
+        MeshGlobe globe;
+        const osg::ref_ptr<CountedLevels> levels = new CountedLevels;
+        levels->addChild(globe.tiles[31], 0.0f, 1e9f);
+        globe.root->removeChild(globe.tiles[31]);
+        globe.root->addChild(levels);
+        installBins(*globe.root);
+        for (int i = 0; i < changed; ++i) {
+            osg::Geometry& geometry = *drawableOf(*globe.tiles[static_cast<std::size_t>(i)])->asGeometry();
+            geometry.getVertexArray()->dirty();
+            geometry.dirtyBound();
+        }
+        (void)globe.root->getBound();
+        levels->looks = 0;
+        update(*globe.root);
+        return levels->looks;
+    };
+    EXPECT_GT(looksFor(1), 0);
+    EXPECT_EQ(looksFor(9), looksFor(1));
 }
 
 // Their numbers are others than those that the family was made with, until the next update.

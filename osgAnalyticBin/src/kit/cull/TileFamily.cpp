@@ -109,7 +109,7 @@ void TileFamily::renew(osg::Node& node) {
     expectTilesBelow(node);
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
     if (!old) (void)place(node, true);
-    if (!old || old->_group != &node) return;
+    if (!old || old->_group != &node || old->renewMeshes(*node.asGroup())) return;
     const osg::ref_ptr<ColumnUnion> above = old->_block->columnUnion().above();
     old->_block->columnUnion().setAbove(nullptr);
     remove(node);
@@ -122,6 +122,21 @@ void TileFamily::renew(osg::Node& node) {
     if (above) family->_block->columnUnion().setAbove(above);
     if (family->_hasTiles || family->_hasGroups || family->_hasOthers || family->_hasLostTiles)
         node.addCullCallback(family);
+}
+
+bool TileFamily::renewMeshes(osg::Group& group) {
+    bool isSame = group.getNumChildren() == _nodes.size();
+    for (unsigned int i = 0; isSame && i < _nodes.size(); ++i) {
+        const osg::Node& child = *group.getChild(i);
+        const auto* const tile = _tiles[i].callback();
+        const bool holds = tile ? tile == installedBinOf(child) : _nodes[i] && holdsTiles(child);
+        isSame = isWithoutTiles(i, child) || (_nodes[i] == &child && holds);
+    }
+    for (std::size_t i = 0; isSame && i < _nodes.size(); ++i) {
+        const auto* const tile = _tiles[i].callback();
+        if (tile && tile->getInstalledTile()->has(InstalledTile::MeshUnread)) _tiles[i] = FamilyTile(*_nodes[i], *tile);
+    }
+    return isSame;
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {

@@ -56,7 +56,8 @@ public:
     OSGANALYTICBIN_EXPORT static void expectTilesBelow(osg::Node& node);
 
     /// Rebuilds the family of a group after the application has added, removed or replaced children; places one where
-    /// there was none and the first tile was added. Requires: no cull traversal runs.
+    /// there was none and the first tile was added. Where meshes of tiles alone have changed, it reads these anew.
+    /// Requires: no cull traversal runs.
     OSGANALYTICBIN_EXPORT static void renew(osg::Node& node);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
@@ -143,6 +144,8 @@ private:
     // `old`: the family in whose place this one comes; null: none.
     TileFamily(osg::Group& group, const TileFamily* old);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
+    // Returns: false, and does nothing, unless the group has the same children and bins.
+    [[nodiscard]] bool renewMeshes(osg::Group& group);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
     void addOthers(osg::Group& group, const TileFamily* old);
     // Of these tiles, those that may be hidden now.

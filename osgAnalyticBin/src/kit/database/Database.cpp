@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <typeinfo>
 #include <utility>
 
@@ -272,9 +273,11 @@ void Database::trustMeshes(osg::Node& group) {
 }
 
 void Database::renewFamilies() {
+    // each tile that has changed notes its group
+    std::set<osg::ref_ptr<osg::Group>> renewed;
     for (const auto& observed : takeChanged()) {
         osg::ref_ptr<osg::Group> group;
-        if (!observed.lock(group)) continue;
+        if (!observed.lock(group) || !renewed.insert(group).second) continue;
         TileFamily::renew(*group);
         trustMeshes(*group);
         watch(*group);
