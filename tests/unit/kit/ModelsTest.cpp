@@ -10,11 +10,13 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/AutoTransform>
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osgDB/WriteFile>
 
 #include <functional>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -214,6 +216,34 @@ TEST(Models, ThatGetANewPartOfTheSameBoundAreReadAgain) {
     part->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     globe.still->addChild(part);
     EXPECT_TRUE(globe.draws(*globe.still, MeshGlobe::fromAbove()));
+}
+
+// Notes who refers to other models while a model is drawn.
+struct ReferenceReader : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        references.clear();
+        for (const auto& other : others) references.push_back(other->referenceCount());
+        traverse(node, nv);
+    }
+    std::vector<osg::ref_ptr<osg::Node>> others;
+    std::vector<int> references;
+};
+
+// osg::AutoTransform changes its sphere before OSG tests it.
+TEST(Models, OutOfViewAreLeftOutAtOnceUnlessTheyMayChange) {
+    GlobeWithModels globe;
+    const osg::ref_ptr<osg::MatrixTransform> seen = makeTower(ecefDeg(22.5, -22.5, 1000.0));
+    const osg::ref_ptr<ReferenceReader> reader = new ReferenceReader;
+    const osg::Vec3d aboveEye = ecefDeg(22.5, -22.5, 2e6);
+    reader->others.emplace_back(makeTower(aboveEye));
+    reader->others.emplace_back(new osg::AutoTransform);
+    dynamic_cast<osg::AutoTransform&>(*reader->others[1]).setPosition(aboveEye);
+    reader->others[1]->asGroup()->addChild(makeTower({}));
+    seen->setCullCallback(reader);
+    globe.root->addChild(seen);
+    for (const auto& other : reader->others) globe.root->addChild(other);
+    globe.install();
+    EXPECT_EQ(reader->references, std::vector<int>({2, 3}));
 }
 
 }  // namespace

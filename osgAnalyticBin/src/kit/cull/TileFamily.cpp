@@ -271,6 +271,8 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
+    // models may come in thousands
+    if (part.members == 0) return;
     part.bins.classify(planes, undecided, verdicts.planes);
     verdicts.tested = part.bins.filled();
     const bool isNear = (part.columns.center() - hiding.at).length() + part.columns.radius() < hiding.tangent;
