@@ -670,6 +670,8 @@ FAULTS = [
     Fault("nobody watches over the watches of tiles in groups without one", "src/kit/install/ContentWatch.cpp",
           "if (!watchOf(child) && TileFamily::holds(node, i)) forEachPart(child, keepUnwatchedVisible);", "", NODE,
           "InGroups*"),
+    Fault("what turns in its sphere stays in its bin", "src/kit/install/ContentWatch.cpp",
+          "_held[i].state == State() || _held[i].state == stateOf(child)", "true", NODE, "AddedContent.*"),
     Fault("models out of view are kept", "src/kit/cull/SelectionWalk.cpp",
           "if (_keeps && !isLeftOutAtOnce(child))", "if (_keeps)", NODE, "Models.*"),
     Fault("models of any class are left out by the spheres that they have", "src/kit/cull/SelectionWalk.cpp",

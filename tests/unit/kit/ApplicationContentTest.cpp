@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <support/GridMesh.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -339,6 +340,33 @@ TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
         EXPECT_EQ(dynamic_cast<osg::PagedLOD&>(*cloneOfTile(i)).getMinimumExpiryTime(1), 0.0) << i;
     }
     EXPECT_EQ(application->getNestedCallback(), nullptr);
+}
+
+// A mast that lies in the tile, and stands up: its sphere stays the same.
+TEST(AddedContent, ThatTurnsInItsSphereIsDrawn) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    constexpr float kHalf = 30000.0f;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const osg::Vec3& v : {osg::Vec3(-kHalf, 0, 0), osg::Vec3(kHalf, 100, 0), osg::Vec3(kHalf, -100, 0)})
+        vertices->push_back(v);
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    // up is x there, nearly
+    const osg::Matrixd standing = osg::Matrixd::translate(ecefDeg(1, -1, 5000.0));
+    const osg::Matrixd lying = osg::Matrixd(0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * standing;
+    const osg::ref_ptr<osg::MatrixTransform> mast = placed(geometry, lying);
+    globe.tiles[19]->addChild(mast, 0.0f, 1e10f);
+    const CullView above = beside(ecefDeg(1, -1, 25000.0));
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_FALSE(globe.draws(*mast, above));
+        update(*globe.root);
+    }
+    const osg::BoundingSphere sphere = mast->getBound();
+    mast->setMatrix(standing);
+    ASSERT_EQ(mast->getBound(), sphere);
+    EXPECT_TRUE(globe.draws(*mast, above));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(*mast, above));
 }
 
 }  // namespace

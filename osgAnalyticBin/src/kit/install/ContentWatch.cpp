@@ -185,21 +185,26 @@ public:
         _toHere = _toHere * matrix;
     }
 
-    void fitInto(const AnalyticBinCullCallback& callback) {
+    // Returns: whether the tile's bin holds all of the sphere, or is of no use, so that the content may turn in it.
+    bool fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
-        if (!tile || !callback.getBin().valid()) return;
+        if (!tile || !callback.getBin().valid()) return true;
         const unsigned int reasons = reasonsAbove(drawn(callback));
         tile->doubt(reasons);
-        if (reasons & InstalledTile::NeverCulled) return;
+        if (reasons & InstalledTile::NeverCulled) return true;
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin& about = aboutOn(model, callback.getLocalToEcef());
-        if (!isOther && isHeld(about, callback.getBin())) return;
+        if (!isOther && isHeld(about, callback.getBin())) return true;
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
-        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
+        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return false;
         const AnalyticBin& content = own.valid() ? own : about;
-        if (!_isMerged) return tile->doubt(InstalledTile::Outgrown);
-        Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
+        if (_isMerged) {
+            Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
+        } else {
+            tile->doubt(InstalledTile::Outgrown);
+        }
+        return false;
     }
 
 private:
@@ -254,14 +259,17 @@ private:
     std::optional<DrawnState> _drawn;
 };
 
-// Looks whether all tiles from the node upwards hold what stands among the node's children.
-void fitIntoTilesFrom(const osg::Node& node, Content content) {
+// Looks whether all tiles from the node upwards hold what stands among the node's children. Returns: whether they hold
+// all of its sphere.
+bool fitIntoTilesFrom(const osg::Node& node, Content content) {
+    bool hold = true;
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (isExactly<AnalyticBinCullCallback>(*at))
-            content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback()));
+            hold = content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback())) && hold;
     }
     if (node.asTransform()) content.leave(*node.asTransform());
-    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
+    for (const osg::Group* const parent : node.getParents()) hold = fitIntoTilesFrom(*parent, content) && hold;
+    return hold;
 }
 
 // Holds what a tile of osgTerrain draws in a vertical scale, which OSG's own bound is made without. Not valid: there is
@@ -429,12 +437,13 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
 }
 
 bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
-    return i < _held.size() && _held[i].first == &child && _held[i].second == child.getBound();
+    if (i >= _held.size() || _held[i].node != &child || !(_held[i].sphere == child.getBound())) return false;
+    return _held[i].state == State() || _held[i].state == stateOf(child);
 }
 
-void ContentWatch::noteHeld(unsigned int i, const osg::Node& child) const {
+void ContentWatch::noteHeld(unsigned int i, const osg::Node& child, bool isHeldAnyhow) const {
     if (i >= _held.size()) _held.resize(i + 1);
-    _held[i] = {&child, child.getBound()};
+    _held[i] = {&child, child.getBound(), isHeldAnyhow ? State() : stateOf(child)};
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -473,8 +482,8 @@ void ContentWatch::check(const osg::Node& node) const {
         if (!sphere.valid() && !isNeverCulled(child)) continue;
         hasMore = hasMore || (!isLevel && isMergedNow());
         if (isUnchanged) continue;
-        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
-        if (isMergedNow()) noteHeld(i, child);
+        const bool isHeldAnyhow = fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        if (isMergedNow()) noteHeld(i, child, isHeldAnyhow);
     }
     // a level may be shown in place of those that were read
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);
@@ -482,7 +491,7 @@ void ContentWatch::check(const osg::Node& node) const {
     if (hasMore) noteMoreThanMesh(node);
     if (group || _fitted.empty() || isFitted(node, true)) return;
     // an osgTerrain tile that has other heights
-    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
+    (void)fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
     if (isMergedNow()) doubtMeshOf(node, false);
 }
 

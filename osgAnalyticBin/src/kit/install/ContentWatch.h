@@ -12,7 +12,6 @@
 #include <osg/Node>
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -70,6 +69,12 @@ private:
         mutable std::uint64_t bounds;  // 0: not known yet
     };
 
+    struct Held {
+        const osg::Node* node = nullptr;
+        osg::BoundingSphere sphere;
+        State state;  // as made: the bins hold all of the sphere
+    };
+
     [[nodiscard]] static State stateOf(const osg::Node& mesh);
 
     // The watch of a node that has one parent.
@@ -81,10 +86,10 @@ private:
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
     void check(const osg::Node& node) const;
-    // Whether the child was looked at before, with the bound that it has: it is in the bins of the tiles above, or they
-    // are about to be expanded.
+    // Whether the child was looked at before, with the sphere that it has: it is in the bins of the tiles above, or
+    // they are about to be expanded. What they hold without its whole sphere may not have changed in it.
     [[nodiscard]] bool isHeld(unsigned int i, const osg::Node& child) const;
-    void noteHeld(unsigned int i, const osg::Node& child) const;
+    void noteHeld(unsigned int i, const osg::Node& child, bool isHeldAnyhow) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
@@ -92,7 +97,7 @@ private:
     std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
     osg::ref_ptr<InstalledTile> _above, _tile;
     std::vector<Fitted> _fitted;
-    mutable std::vector<std::pair<const osg::Node*, osg::BoundingSphere>> _held;  // by the number of the child
+    mutable std::vector<Held> _held;  // by the number of the child
     mutable bool _isPending = false;  // something was found before the file was merged
 };
 
