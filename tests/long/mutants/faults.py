@@ -221,6 +221,8 @@ FAULTS = [
     Fault("only a mesh itself has a sphere elsewhere, not its parts", "src/kit/cull/SelectionEvidence.cpp",
           "    if (BoundWatch::hasOwnBound(mesh)) return true;\n", "    return BoundWatch::hasOwnBound(mesh);\n", NODE,
           "SpheresOfMeshes.*"),
+    Fault("rest: what is known of few databases is kept", "src/kit/cull/CullTraversal.cpp",
+          "kMostDatabases = 4096", "kMostDatabases = 64", NODE, "Rest.*"),
     Fault("databases rest though bins gain", "src/kit/cull/DatabaseRest.h", "kShare * saved >= kept", "kShare * saved > 64 * kept",
           NODE, "Rest.*"),
     Fault("databases rest though OSG would leave tiles out", "src/kit/cull/DatabaseRest.h", "mended > 0 || ", "", NODE,

@@ -81,6 +81,20 @@ TEST(Rest, EndsWhenTilesCome) {
     EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
 }
 
+TEST(Rest, IsForEachOfManyDatabases) {
+    RestingGlobe globe(withoutHorizon());
+    const osg::ref_ptr<osg::Group> all = new osg::Group;
+    all->addChild(globe.root);
+    for (int i = 0; i < 99; ++i) {
+        const MeshGlobe other;
+        installBins(*other.root, withoutHorizon());
+        all->addChild(other.root);
+    }
+    globe.scene = all;
+    update(*all);
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+}
+
 TEST(Rest, IsNotForTilesThatTheHorizonHides) {
     EXPECT_FALSE(RestingGlobe(declaredHorizon()).rests(ofAllTiles()));
 }

@@ -50,12 +50,12 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
 }
 
 CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database) {
-    for (auto& [known, view] : _lastViews) {
-        if (known == &database) return view;
-    }
-    constexpr std::size_t kMostDatabases = 64;
+    const auto known = _lastViews.find(&database);
+    if (known != _lastViews.end()) return known->second;
+    // those that are gone are not told apart from those out of view
+    constexpr std::size_t kMostDatabases = 4096;
     if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
-    return _lastViews.emplace_back(&database, LastView()).second;
+    return _lastViews[&database];
 }
 
 }  // namespace osgAnalyticBin

@@ -27,8 +27,8 @@
 
 #include <cstddef>
 #include <deque>
+#include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -132,7 +132,7 @@ private:
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TileSelection> _selections;  // of databases within each other
     std::size_t _openSelections = 0;
-    std::vector<std::pair<const InstalledDatabase*, LastView>> _lastViews;
+    std::unordered_map<const InstalledDatabase*, LastView> _lastViews;
     core::PlaneSet _planes;
 };
 
