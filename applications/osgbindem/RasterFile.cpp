@@ -144,94 +144,49 @@ std::string verticalOf(const OGRSpatialReference& reference) {
     return result;
 }
 
-/// Pixels and lines of a raster, or longitudes and latitudes.
+/// The raster's own coordinates of places that are spread evenly over it, each followed by those a pixel farther along
+/// the row, along the column, and along both. Empty where GDAL does not know them.
 struct Places {
+    explicit Places(GDALDataset& dataset) {
+        constexpr int kSteps = 8;
+        for (int i = 0; i <= kSteps; ++i) {
+            for (int j = 0; j <= kSteps; ++j) {
+                const double column = (dataset.GetRasterXSize() - 1.0) * j / kSteps;
+                const double row = (dataset.GetRasterYSize() - 1.0) * i / kSteps;
+                x.insert(x.end(), {column, column + 1.0, column, column + 1.0});
+                y.insert(y.end(), {row, row, row + 1.0, row + 1.0});
+            }
+        }
+        std::vector<double> z(x.size(), 0.0);
+        isFound.resize(x.size());
+        void* transformer = GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&dataset), nullptr, nullptr);
+        if (transformer == nullptr) {
+            x.clear();
+            return;
+        }
+        GDALGenImgProjTransform(transformer, FALSE, static_cast<int>(x.size()), x.data(), y.data(), z.data(),
+                                isFound.data());
+        GDALDestroyGenImgProjTransformer(transformer);
+    }
+
     std::vector<double> x;
     std::vector<double> y;
     std::vector<int> isFound;
-
-    void transform(void* transformer, bool toPixels) {
-        std::vector<double> z(x.size(), 0.0);
-        isFound.assign(x.size(), 0);
-        GDALGenImgProjTransform(transformer, toPixels ? TRUE : FALSE, static_cast<int>(x.size()), x.data(), y.data(),
-                                z.data(), isFound.data());
-        for (std::size_t i = 0; i < x.size(); ++i)
-            if (!std::isfinite(x[i]) || !std::isfinite(y[i])) isFound[i] = 0;
-    }
 };
 
-/// The longitudes and latitudes of a lattice of so many steps over a rectangle of pixels, which begins at (x, y).
-Places latticeOf(void* transformer, int steps, double width, double height, double x = 0.0, double y = 0.0) {
-    Places places;
-    for (int row = 0; row <= steps; ++row) {
-        for (int column = 0; column <= steps; ++column) {
-            places.x.push_back(x + width * column / steps);
-            places.y.push_back(y + height * row / steps);
-        }
-    }
-    places.transform(transformer, false);
-    return places;
-}
-
-/// Where a pole is in pixels. Returns: nullopt where its longitudes are not one place.
-std::optional<std::pair<double, double>> pixelOfPole(void* transformer, double latitude) {
-    Places places{{-120.0, 0.0, 120.0}, {latitude, latitude, latitude}, {}};
-    places.transform(transformer, true);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double apart = std::hypot(places.x[i] - places.x[0], places.y[i] - places.y[0]);
-        if (places.isFound[i] == 0 || apart > 1.0) return std::nullopt;
-    }
-    return std::pair(places.x[0], places.y[0]);
-}
-
-/// The area of a raster of so many pixels, from a lattice of places in it. West > east: none is found.
-RectDeg extentOf(void* transformer, int width, int height) {
-    constexpr int kSteps = 64;
-    constexpr double kLeastGap = 2.0 * 360.0 / kSteps;  // smaller ones may be between places
-    const Places places = latticeOf(transformer, kSteps, width, height);
-    // The place nearest to a pole may lie between those of the lattice.
-    Places nearest;
-    bool holdsPole = false;
-    for (const double latitude : {90.0, -90.0}) {
-        const auto pole = pixelOfPole(transformer, latitude);
-        if (!pole) continue;
-        nearest.x.push_back(std::clamp(pole->first, 0.0, static_cast<double>(width)));
-        nearest.y.push_back(std::clamp(pole->second, 0.0, static_cast<double>(height)));
-        holdsPole = holdsPole || *pole == std::pair(nearest.x.back(), nearest.y.back());
-    }
-    nearest.transform(transformer, false);
-    RectDeg rect{180.0, 90.0, -180.0, -90.0};
-    std::vector<double> longitudes;
-    for (const Places& all : {places, nearest}) {
-        for (std::size_t i = 0; i < all.x.size(); ++i) {
-            if (all.isFound[i] == 0) continue;
-            longitudes.push_back(std::remainder(all.x[i], 360.0));
-            rect.south = std::min(rect.south, all.y[i]);
-            rect.north = std::max(rect.north, all.y[i]);
-        }
-    }
-    if (longitudes.empty()) return rect;
-    // Next to where a map ends, degrees change faster than any lattice tells.
-    if (std::count(places.isFound.begin(), places.isFound.end(), 0) > 0) return {-180.0, -90.0, 180.0, 90.0};
-    // The raster lies outside the widest gap.
-    std::sort(longitudes.begin(), longitudes.end());
-    rect.west = longitudes.front();
-    rect.east = longitudes.back();
-    double widest = rect.west + 360.0 - rect.east;
-    for (std::size_t i = 1; i < longitudes.size(); ++i) {
-        const double gap = longitudes[i] - longitudes[i - 1];
-        if (gap <= widest) continue;
-        widest = gap;
-        rect.west = longitudes[i];
-        rect.east = longitudes[i - 1] + 360.0;
-    }
-    // The turn is that of the place in the middle.
-    const std::size_t middle = places.x.size() / 2;
-    const double turns = std::round((places.x[middle] - 0.5 * (rect.west + rect.east)) / 360.0);
-    rect.west += 360.0 * turns;
-    rect.east += 360.0 * turns;
-    if (holdsPole || widest < kLeastGap) return {-180.0, rect.south, 180.0, rect.north};
-    return rect;
+/// The area of places that `way` brings to degrees. West > east: none is found.
+RectDeg extentOf(const Places& places, OGRCoordinateTransformation& way) {
+    constexpr int kPlaces = 1000;        // along each border
+    constexpr double kLeastGap = 11.25;  // a smaller one may be between places
+    const auto [west, east] = std::minmax_element(places.x.begin(), places.x.end());
+    const auto [south, north] = std::minmax_element(places.y.begin(), places.y.end());
+    RectDeg extent;
+    if (way.TransformBounds(*west, *south, *east, *north, &extent.west, &extent.south, &extent.east, &extent.north,
+                            kPlaces) == 0)
+        return {180.0, 90.0, -180.0, -90.0};
+    if (extent.east <= extent.west) extent.east += 360.0;
+    if (extent.east - extent.west > 360.0 - kLeastGap) return {-180.0, extent.south, 180.0, extent.north};
+    return extent;
 }
 
 /// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
@@ -285,13 +240,22 @@ bool RasterFile::isNorthUp() const noexcept {
     return _hasTransform && isUnturned(_transform) && _transform[5] < 0.0;
 }
 
+Failure RasterFile::noWayToGlobe() const {
+    return Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
+}
+
+std::unique_ptr<OGRCoordinateTransformation> RasterFile::wayToGlobe() const {
+    std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&_horizontal, &_target));
+    if (!way) throw noWayToGlobe();
+    return way;
+}
+
 bool RasterFile::isInDegreesOfGlobe() const {
     if (!_hasTransform || !isUnturned(_transform)) return false;
     if (_horizontal.IsEmpty()) return true;
     if (_horizontal.IsGeographic() == 0 || _horizontal.IsDerivedGeographic() != 0) return false;
     if (_horizontal.IsSame(&_target) != 0) return true;
-    const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&_horizontal, &_target));
-    if (!way) throw Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
+    const auto way = wayToGlobe();
     constexpr double kMost = 0.01;  // pixels
     // Latitudes of a sphere and of an ellipsoid differ most halfway between poles and equator.
     for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
@@ -335,38 +299,31 @@ void RasterFile::place() {
 }
 
 void RasterFile::placeWarped() {
-    CPLStringList words;
-    words.SetNameValue("DST_SRS", wktOf(_target).c_str());
-    const std::unique_ptr<void, void (*)(void*)> transformer(
-        GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&dataset()), nullptr, words.List()),
-        GDALDestroyGenImgProjTransformer);
-    const auto failure = [&] {
-        return Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
-    };
-    if (!transformer) throw failure();
-    const int width = dataset().GetRasterXSize();
-    const int height = dataset().GetRasterYSize();
-    constexpr int kSteps = 8;
-    const auto places = [&](double x, double y) {
-        return latticeOf(transformer.get(), kSteps, width - 1.0, height - 1.0, x, y);
-    };
-    const Places at = places(0.0, 0.0), beside = places(1.0, 0.0), below = places(0.0, 1.0);
+    const auto way = wayToGlobe();
+    Places places(dataset());
+    if (places.x.empty()) throw noWayToGlobe();
+    _extent = extentOf(places, *way);
+    way->Transform(static_cast<int>(places.x.size()), places.x.data(), places.y.data(), nullptr, places.isFound.data());
     std::vector<double> eastDeg;
     std::vector<double> northDeg;
-    for (std::size_t i = 0; i < at.x.size(); ++i) {
-        if (at.isFound[i] == 0 || beside.isFound[i] == 0 || below.isFound[i] == 0) continue;
-        const double lonX = std::remainder(beside.x[i] - at.x[i], 360.0);
-        const double lonY = std::remainder(below.x[i] - at.x[i], 360.0);
-        const double latX = beside.y[i] - at.y[i];
-        const double latY = below.y[i] - at.y[i];
+    for (std::size_t i = 0; i < places.x.size(); i += 4) {
+        const auto isFound = places.isFound.begin() + static_cast<std::ptrdiff_t>(i);
+        const double lonX = std::remainder(places.x[i + 1] - places.x[i], 360.0);
+        const double lonY = std::remainder(places.x[i + 2] - places.x[i], 360.0);
+        const double latX = places.y[i + 1] - places.y[i];
+        const double latY = places.y[i + 2] - places.y[i];
         const double area = std::abs(lonX * latY - lonY * latX);
         const double east = area / std::hypot(latX, latY);
         const double north = area / std::hypot(lonX, lonY);
+        if (std::count(isFound, isFound + 4, 0) > 0 || !std::isfinite(area)) {
+            // Next to where a map ends, degrees change faster than its border tells.
+            _extent = {-180.0, -90.0, 180.0, 90.0};
+            continue;
+        }
         if (east > 0.0 && std::isfinite(east)) eastDeg.push_back(east);
         if (north > 0.0 && std::isfinite(north)) northDeg.push_back(north);
     }
-    _extent = extentOf(transformer.get(), width, height);
-    if (_extent.west > _extent.east || eastDeg.empty() || northDeg.empty()) throw failure();
+    if (_extent.west > _extent.east || eastDeg.empty() || northDeg.empty()) throw noWayToGlobe();
     std::sort(northDeg.begin(), northDeg.end());
     _eastDeg = roundedSpacing(360.0, *std::min_element(eastDeg.begin(), eastDeg.end()));
     _northDeg = roundedSpacing(180.0, northDeg[northDeg.size() / 2]);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "Failure.h"
 #include "RasterBands.h"
 #include "RasterGrid.h"
 
@@ -65,6 +66,9 @@ private:
     void place();
     void placeWarped();
     [[nodiscard]] bool isInDegreesOfGlobe() const;
+    /// From the raster's own coordinates to degrees of the globe. Throws Failure.
+    [[nodiscard]] std::unique_ptr<OGRCoordinateTransformation> wayToGlobe() const;
+    [[nodiscard]] osgAnalyticBin::support::Failure noWayToGlobe() const;
     [[nodiscard]] int overview() const;
 
     RasterOptions _options;
