@@ -23,7 +23,7 @@ constexpr double kRival = 1.5;
 
 constexpr const char* kAdvice = "; install the package proj-data, or see --geoid (none takes heights as they are)";
 
-// Half of the memory is GDAL's cache, the other half the windows that the threads keep.
+// Half of the memory is GDAL's cache, the other half what the threads keep.
 double postsPerThread(const Settings& settings) {
     const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1);
     return std::min(bytes / sizeof(double), DemSource::kMostPosts);
@@ -80,10 +80,12 @@ double VerticalShift::at(const PositionDeg& position) const {
     return z;
 }
 
-DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) : _mostPosts(postsPerThread(settings)) {
-    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
+DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
+    RasterLayer::Layers layers = RasterLayer::elevationOf(settings, layout);
+    const double mostPosts = postsPerThread(settings) / static_cast<double>(layers.size());
+    for (auto& layer : layers) {
         _shifts.emplace_back(layer->vertical(), settings.geoid, layer->path());
-        _sources.push_back(std::make_unique<DemSource>(std::move(layer)));
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer), mostPosts));
     }
     for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
         const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
@@ -161,11 +163,6 @@ bool DemMosaic::hasFinerData(const RectDeg& rect, double spacingDeg) {
     return std::any_of(_sources.begin(), _sources.end(), [&](const auto& source) {
         return TileLayout::isFiner(source->grid().resolutionDeg(), spacingDeg) && source->hasData(rect);
     });
-}
-
-void DemMosaic::prefetch(const RectDeg& rect) {
-    double left = _mostPosts;
-    for (const auto& source : _sources) left -= source->prefetch(rect, left);
 }
 
 std::vector<std::string> DemMosaic::inspect() {

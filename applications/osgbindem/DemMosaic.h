@@ -67,8 +67,6 @@ public:
     [[nodiscard]] bool hasFinerRaster(const RectDeg& rect, double spacingDeg) const noexcept;
     [[nodiscard]] bool hasFinerData(const RectDeg& rect, double spacingDeg);
 
-    void prefetch(const RectDeg& rect);
-
     /// Looks at each raster; reads, so it is done once and not in each thread. Returns: what the user should know of
     /// them, in lines. Throws Failure when one is empty.
     [[nodiscard]] std::vector<std::string> inspect();
@@ -92,7 +90,6 @@ private:
     /// As DemSource::addRange(), above the ellipsoid.
     [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, Interval& range);
 
-    double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;
     /// One for each source.
     std::vector<VerticalShift> _shifts;

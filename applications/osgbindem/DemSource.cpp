@@ -8,61 +8,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 
-DemSource::DemSource(std::unique_ptr<RasterLayer> layer)
-    : _layer(std::move(layer)),
-      _voids(*_layer, [this](const PixelWindow& window, std::vector<double>& heights) { read(window, heights); }) {}
+namespace {
 
-void DemSource::read(const PixelWindow& window, std::vector<double>& heights) {
-    heights.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
-    if (const Page* page = pageWith(window)) {
-        auto target = heights.begin();
-        for (int row = window.row; row < window.row + window.height; ++row) {
-            const auto from = page->heights.begin() + page->offset(window.column, row);
-            target = std::copy(from, from + window.width, target);
-        }
-        return;
-    }
-    const CPLErr error = _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, window.column, window.row, window.width,
-                                                                      window.height, heights.data(), window.width,
-                                                                      window.height, GDT_Float64, 0, 0, nullptr);
-    if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+/// The first post of the next block.
+int nextBlock(int place) {
+    return (place / VoidFill::kBlock + 1) * VoidFill::kBlock;
 }
 
-const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noexcept {
-    const auto found =
-        std::find_if(_pages.begin(), _pages.end(), [&](const Page& page) { return page.window.contains(window); });
-    return found == _pages.end() ? nullptr : &*found;
+}  // namespace
+
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer, double mostPosts)
+    : _layer(std::move(layer)),
+      _mostBlocks(static_cast<std::size_t>(std::max(8.0, mostPosts / (VoidFill::kBlock * VoidFill::kBlock)))),
+      _voids(*_layer, [this](int column, int row) { return post(column, row); }) {}
+
+DemSource::Block& DemSource::blockWith(int column, int row) {
+    if (_last != nullptr && _last->window.contains(column, row)) return *_last;
+    const std::pair place(nextBlock(column) - VoidFill::kBlock, nextBlock(row) - VoidFill::kBlock);
+    auto found = _blocks.find(place);
+    if (found == _blocks.end()) {
+        osgAnalyticBin::support::throwIfStopRequested();
+        _last = nullptr;
+        if (_blocks.size() >= _mostBlocks) _blocks.clear();
+        const int width = std::min(VoidFill::kBlock, grid().columns() - place.first);
+        const int height = std::min(VoidFill::kBlock, grid().rows() - place.second);
+        std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        const CPLErr error =
+            _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, place.first, place.second, width, height,
+                                                         heights.data(), width, height, GDT_Float64, 0, 0, nullptr);
+        if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+        const PixelWindow window{place.first, place.second, width, height};
+        found = _blocks.emplace(place, Block{window, std::move(heights), {}}).first;
+    }
+    _last = &found->second;
+    return *_last;
 }
 
 double DemSource::post(int column, int row) {
-    read({column, row, 1, 1}, _single);
-    return _single.front();
+    const Block& block = blockWith(column, row);
+    return block.heights[block.place(column, row)];
+}
+
+FoundHeight DemSource::filled(int column, int row) {
+    if (!blockWith(column, row).fill) {
+        // Other blocks may be read meanwhile in place of this one.
+        VoidFill::Block fill = _voids.filled(PixelWindow(blockWith(column, row).window));
+        blockWith(column, row).fill = std::move(fill);
+    }
+    const Block& block = *_last;
+    return block.fill->at(block.place(column, row));
 }
 
 std::optional<FoundHeight> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
-    // Nearly always one page has all four posts.
-    const Page* page = pageWith({cell->west, cell->first, cell->east - cell->west + 1, cell->second - cell->first + 1});
     FoundHeight result;
     bool isOwn = false;
     const auto at = [&](int column, int row) {
-        const double height =
-            page ? page->heights[static_cast<std::size_t>(page->offset(column, row))] : post(column, row);
+        const double height = post(column, row);
         if (!std::isnan(height)) {
             isOwn = true;
             return height;
         }
-        const FoundHeight filled = _voids.at(column, row);
-        isOwn = isOwn || !filled.isRival;
-        result.isFilled = result.isFilled || !filled.isRival;
-        return filled.metres;
+        const FoundHeight found = filled(column, row);
+        isOwn = isOwn || !found.isRival;
+        result.isFilled = result.isFilled || !found.isRival;
+        return found.metres;
     };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
@@ -77,54 +93,29 @@ std::optional<FoundHeight> DemSource::height(const PositionDeg& position) {
     return result;
 }
 
-double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
-    const std::vector<PixelWindow> windows = grid().touching(rect);
-    double wanted = 0.0;
-    for (const PixelWindow& window : windows) wanted += window.area();
-    const bool isThere =
-        std::all_of(windows.begin(), windows.end(), [&](const PixelWindow& w) { return pageWith(w) != nullptr; });
-    double held = 0.0;
-    for (const Page& page : _pages) held += page.window.area();
-    if (isThere && !windows.empty() && held <= mostPosts) return held;
-    _pages.clear();
-    if (windows.empty() || wanted > mostPosts) return 0.0;
-    std::vector<Page> pages;
+template <typename Visit>
+void DemSource::forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) const {
     for (const PixelWindow& window : windows) {
-        pages.push_back({window, {}});
-        read(window, pages.back().heights);
-    }
-    _pages = std::move(pages);
-    return wanted;
-}
-
-void DemSource::readInParts(
-    const std::vector<PixelWindow>& windows, double posts,
-    const std::function<bool(const PixelWindow& part, const std::vector<double>& heights)>& visit) {
-    std::vector<double> heights;
-    for (const PixelWindow& window : windows) {
-        const int most = std::max(1, static_cast<int>(posts / window.width));
-        for (int row = window.row; row < window.row + window.height; row += most) {
-            osgAnalyticBin::support::throwIfStopRequested();
-            const PixelWindow part{window.column, row, window.width, std::min(most, window.row + window.height - row)};
-            read(part, heights);
-            if (!visit(part, heights)) return;
-        }
+        const int east = window.column + window.width;
+        const int south = window.row + window.height;
+        for (int row = window.row; row < south; row = nextBlock(row))
+            for (int column = window.column; column < east; column = nextBlock(column))
+                for (int v = row; v < std::min(south, nextBlock(row)); ++v)
+                    for (int u = column; u < std::min(east, nextBlock(column)); ++u)
+                        if (!visit(u, v)) return;
     }
 }
 
 bool DemSource::addRange(const RectDeg& rect, Interval& range) {
     bool isComplete = grid().covers(rect);
-    readInParts(grid().touching(rect), 1e6, [&](const PixelWindow& part, const std::vector<double>& heights) {
-        for (std::size_t i = 0; i < heights.size(); ++i) {
-            const int place = static_cast<int>(i);
-            double height = heights[i];
-            if (std::isnan(height)) {
-                const FoundHeight filled = _voids.at(part.column + place % part.width, part.row + place / part.width);
-                height = filled.metres;
-                isComplete = isComplete && !filled.isRival && !std::isnan(height);
-            }
-            if (!std::isnan(height)) range.expandBy(height);
+    forPosts(grid().touching(rect), [&](int column, int row) {
+        double height = post(column, row);
+        if (std::isnan(height)) {
+            const FoundHeight found = filled(column, row);
+            height = found.metres;
+            isComplete = isComplete && !found.isRival && !std::isnan(height);
         }
+        if (!std::isnan(height)) range.expandBy(height);
         return true;
     });
     return isComplete;
@@ -132,8 +123,8 @@ bool DemSource::addRange(const RectDeg& rect, Interval& range) {
 
 bool DemSource::hasData(const RectDeg& rect) {
     bool isFound = false;
-    readInParts(grid().inside(rect), 65536.0, [&](const PixelWindow&, const std::vector<double>& heights) {
-        isFound = std::any_of(heights.begin(), heights.end(), [](double height) { return !std::isnan(height); });
+    forPosts(grid().inside(rect), [&](int column, int row) {
+        isFound = !std::isnan(post(column, row));
         return !isFound;
     });
     return isFound;

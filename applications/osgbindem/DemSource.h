@@ -8,23 +8,26 @@
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
-#include <functional>
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
 
 using osgAnalyticBin::core::Interval;
 
-/// One layer of elevation rasters. Reads windows only; keeps the last window that was prefetched.
+/// One layer of elevation rasters. Reads it in blocks at fixed places, and keeps those that were read last.
 /// Not for use by several threads: each has its own.
 class DemSource final {
 public:
     /// More posts than this in memory save no time.
     static constexpr double kMostPosts = 3e6;
 
-    explicit DemSource(std::unique_ptr<RasterLayer> layer);
+    /// `mostPosts`: to be kept in memory, but never less than a few blocks.
+    explicit DemSource(std::unique_ptr<RasterLayer> layer, double mostPosts = kMostPosts);
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
@@ -44,30 +47,30 @@ public:
     /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, Interval& range);
 
-    /// Reads what touches the rectangle into memory, if it is not there and is not too much.
-    /// Returns: the posts now in memory, at most mostPosts.
-    double prefetch(const RectDeg& rect, double mostPosts = kMostPosts);
-
 private:
-    struct Page {
-        PixelWindow window;
-        std::vector<double> heights;
-
-        [[nodiscard]] std::ptrdiff_t offset(int column, int row) const noexcept {
-            return static_cast<std::ptrdiff_t>(row - window.row) * window.width + (column - window.column);
+    struct Block {
+        [[nodiscard]] std::size_t place(int column, int row) const noexcept {
+            return static_cast<std::size_t>((row - window.row) * window.width + column - window.column);
         }
+
+        PixelWindow window;
+        /// NaN where they are missing.
+        std::vector<double> heights;
+        /// Where one of those was asked for.
+        std::optional<VoidFill::Block> fill;
     };
 
-    void read(const PixelWindow& window, std::vector<double>& heights);
-    /// Reads windows in parts of about so many posts, as long as `visit` says so.
-    void readInParts(const std::vector<PixelWindow>& windows, double posts,
-                     const std::function<bool(const PixelWindow& part, const std::vector<double>& heights)>& visit);
+    [[nodiscard]] Block& blockWith(int column, int row);
     [[nodiscard]] double post(int column, int row);
-    [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
+    [[nodiscard]] FoundHeight filled(int column, int row);
+    /// Calls `visit(column, row)` for each post, block by block, as long as it returns true.
+    template <typename Visit>
+    void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) const;
 
     std::unique_ptr<RasterLayer> _layer;
-    std::vector<Page> _pages;
-    std::vector<double> _single;
+    std::size_t _mostBlocks;
+    std::map<std::pair<int, int>, Block> _blocks;
+    Block* _last = nullptr;
     VoidFill _voids;
 };
 

@@ -48,7 +48,7 @@ struct Settings {
     double lodFactor = 4.0;
     /// Without it, one for each core.
     std::optional<int> threads;
-    /// For what is read of the rasters, in MiB: GDAL's cache and the windows of all threads.
+    /// For what is read of the rasters, in MiB: GDAL's cache and the blocks of all threads.
     int memoryMib = 256;
     /// Read a raster's overview where that is as fine as the finest tiles.
     bool useOverviews = true;

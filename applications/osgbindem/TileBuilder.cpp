@@ -58,7 +58,6 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
         if (auto found = _finished(tile)) return std::move(*found);
     }
     throwIfStopRequested();
-    prefetch(tile);
     if (!_skirts.hasChildren(tile)) {
         SurveyedTile leaf = surveyAlone(tile);
         leaf.range = _mosaic.range(tile.rect());
@@ -72,7 +71,6 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
 }
 
 SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
-    prefetch(tile);
     SurveyedTile surveyed = begun(tile);
     // Tiles beside a region are there to surround it.
     const bool isCounted = _layout.isInRegion(tile);
@@ -94,11 +92,6 @@ SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
     }
     finishSurvey(surveyed);
     return surveyed;
-}
-
-void TileBuilder::prefetch(const TileId& tile) {
-    // The border is for the ring around the heights; the subtree of the first tile that fits is served from memory.
-    _mosaic.prefetch(tile.rect().grownBy(_layout.spacingDeg(tile.level)));
 }
 
 SurveyedTile TileBuilder::begun(const TileId& tile) const {

@@ -63,7 +63,6 @@ public:
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
 
 private:
-    void prefetch(const TileId& tile);
     [[nodiscard]] SurveyedTile begun(const TileId& tile) const;
     /// Takes a post from the rasters, in whole steps; columns and rows of the ring around the tile are -1 and cells
     /// + 1.

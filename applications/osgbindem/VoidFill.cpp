@@ -4,7 +4,6 @@
 #include "VoidFill.h"
 
 #include "Failure.h"
-#include "Interruption.h"
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
@@ -18,18 +17,14 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
-constexpr int kVoidBlock = 256;
 // Passes of GDAL's 3 x 3 mean over interpolated posts; each widens by one post what a height depends on.
 constexpr int kSmoothing = 20;
 // What is read around a block: at its corners a void's rim and smoothing still find all that they depend on.
 constexpr int kBorder = VoidFill::kReach + kSmoothing + 1;
-static_assert(kVoidBlock + kBorder <= VoidFill::kMostReach);
-// Blocks kept in memory, 256 KiB each.
-constexpr std::size_t kMostHeld = 24;
+static_assert(VoidFill::kBlock + kBorder <= VoidFill::kMostReach);
 // In the sea a difference fades out within this many posts; it does so less and less up to a height in metres.
 constexpr double kSeaReach = 8.0;
 constexpr double kCoastHeight = 100.0;
@@ -40,41 +35,36 @@ void require(CPLErr error, const char* what) {
     if (error != CE_None) throw Failure(std::string("cannot ") + what + " around missing heights: " + gdalMessage());
 }
 
-/// Numbers as a band of GDAL's, which works in their memory.
-class Plane {
-public:
-    Plane(int width, int height, GDALDataType type, void* numbers) {
-        GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-        _dataset.reset(driver == nullptr ? nullptr : driver->Create("", width, height, 0, type, nullptr));
-        if (!_dataset) throw Failure("no memory to fill missing heights: " + gdalMessage());
-        CPLStringList words;
-        words.SetNameValue("DATAPOINTER", CPLSPrintf("%p", numbers));
-        require(_dataset->AddBand(type, words.List()), "work");
-    }
-
-    [[nodiscard]] GDALRasterBandH band() const { return GDALRasterBand::ToHandle(_dataset->GetRasterBand(1)); }
-
-private:
-    GdalDataset _dataset;
-};
+/// Numbers as a raster of GDAL's, which works in their memory.
+GdalDataset planeOf(int width, int height, GDALDataType type, void* numbers) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
+    GdalDataset plane(driver == nullptr ? nullptr : driver->Create("", width, height, 0, type, nullptr));
+    if (!plane) throw Failure("no memory to fill missing heights: " + gdalMessage());
+    CPLStringList words;
+    words.SetNameValue("DATAPOINTER", CPLSPrintf("%p", numbers));
+    require(plane->AddBand(type, words.List()), "work");
+    return plane;
+}
 
 /// Interpolates `values` where `isKnown` is 0 from where it is not.
 void interpolate(int width, int height, std::vector<float>& values, std::vector<GByte>& isKnown, double reach) {
-    const Plane plane(width, height, GDT_Float32, values.data());
-    const Plane mask(width, height, GDT_Byte, isKnown.data());
+    const GdalDataset plane = planeOf(width, height, GDT_Float32, values.data());
+    const GdalDataset mask = planeOf(width, height, GDT_Byte, isKnown.data());
     CPLStringList options(CSLTokenizeString("TEMP_FILE_DRIVER=MEM"));
-    require(GDALFillNodata(plane.band(), mask.band(), reach, 0, kSmoothing, options.List(), nullptr, nullptr),
+    require(GDALFillNodata(plane->GetRasterBand(1), mask->GetRasterBand(1), reach, 0, kSmoothing, options.List(),
+                           nullptr, nullptr),
             "interpolate");
 }
 
 /// Posts to the nearest one with data; more than kReach where that is farther.
 std::vector<float> distancesTo(std::vector<GByte> isKnown, int width, int height) {
     std::vector<float> distances(isKnown.size());
-    const Plane known(width, height, GDT_Byte, isKnown.data());
-    const Plane distance(width, height, GDT_Float32, distances.data());
+    const GdalDataset known = planeOf(width, height, GDT_Byte, isKnown.data());
+    const GdalDataset distance = planeOf(width, height, GDT_Float32, distances.data());
     CPLStringList options(CSLTokenizeString("VALUES=255 NODATA=100000"));
     options.SetNameValue("MAXDIST", std::to_string(VoidFill::kReach).c_str());
-    require(GDALComputeProximity(known.band(), distance.band(), options.List(), nullptr, nullptr), "measure");
+    require(GDALComputeProximity(known->GetRasterBand(1), distance->GetRasterBand(1), options.List(), nullptr, nullptr),
+            "measure");
     return distances;
 }
 
@@ -100,7 +90,9 @@ public:
         const int first = std::max(block.row - kBorder, -1);
         _posts = {west, first, std::min(block.column + block.width + kBorder, _width + most) - west,
                   std::min(block.row + block.height + kBorder, rows + 1) - first};
-        readHeights(rows);
+        const auto count = static_cast<std::size_t>(_posts.width) * static_cast<std::size_t>(_posts.height);
+        _heights.assign(count, std::numeric_limits<double>::quiet_NaN());
+        _kinds.assign(count, Kind::Outside);
         findKinds();
     }
 
@@ -109,22 +101,20 @@ public:
         if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
         const std::vector<float> distances = distancesTo(isKnown, _posts.width, _posts.height);
         sortVoids(distances);
-        bool hasNarrow = false;
-        bool hasWide = false;
-        forPosts(_block, [&](int, int, std::size_t i) {
-            hasNarrow = hasNarrow || _kinds[i] == Kind::Narrow;
-            hasWide = hasWide || (_kinds[i] == Kind::Wide && _fill._coarser);
-        });
-        const std::vector<float> narrow = hasNarrow ? interpolated() : std::vector<float>();
-        const std::vector<float> wide = hasWide ? differences() : std::vector<float>();
+        std::vector<float> narrow;
+        std::vector<float> wide;
         Block result;
         forPosts(_block, [&](int x, int y, std::size_t i) {
             const Kind kind = _kinds[i];
             result.isRival.push_back(kind == Kind::Rival);
             float& height = result.heights.emplace_back(kVoid);
             if (kind == Kind::Rival) height = static_cast<float>(_heights[i]);
-            if (kind == Kind::Narrow) height = narrow[i];
+            if (kind == Kind::Narrow) {
+                if (narrow.empty()) narrow = interpolated();
+                height = narrow[i];
+            }
             if (kind != Kind::Wide || !_fill._coarser || distances[i] >= kReach) return;
+            if (wide.empty()) wide = differences();
             const double coarser = coarserAt(x, y).metres;
             const double onLand = fade(distances[i], 0.5 * kReach, kReach);
             const double inSea = fade(distances[i], 0.0, kSeaReach);
@@ -157,31 +147,19 @@ private:
                  [&](int u, int v, std::size_t i) { result = is(u, v, i) || result; });
         return result;
     }
-    [[nodiscard]] FoundHeight coarserAt(int x, int y) const {
+    /// Round the globe, where the raster goes round it.
+    [[nodiscard]] int columnOf(int x) const noexcept {
         const int column = _posts.column + x;
-        return _fill._coarser(_turns > 0 ? (column + _width) % _width : column, _posts.row + y);
+        return _turns > 0 ? (column + _width) % _width : column;
     }
-
-    void readHeights(int rows) {
-        _heights.assign(static_cast<std::size_t>(_posts.width) * static_cast<std::size_t>(_posts.height),
-                        std::numeric_limits<double>::quiet_NaN());
-        std::vector<double> part;
-        for (int turn = -_turns; turn <= _turns; ++turn) {
-            const int from = std::max(_posts.column, turn * _width);
-            const int to = std::min(_posts.column + _posts.width, (turn + 1) * _width);
-            if (to <= from) continue;
-            const int first = std::max(_posts.row, 0);
-            const PixelWindow inside{from, first, to - from, std::min(_posts.row + _posts.height, rows) - first};
-            _fill._read({from - turn * _width, first, inside.width, inside.height}, part);
-            auto next = part.begin();
-            forPosts(inside, [&](int, int, std::size_t i) { _heights[i] = *next++; });
-        }
-    }
+    [[nodiscard]] FoundHeight coarserAt(int x, int y) const { return _fill._coarser(columnOf(x), _posts.row + y); }
 
     void findKinds() {
-        _kinds.resize(_heights.size());
-        std::transform(_heights.begin(), _heights.end(), _kinds.begin(),
-                       [](double height) { return std::isnan(height) ? Kind::Outside : Kind::Data; });
+        const PixelWindow raster{-_turns * _width, 0, (2 * _turns + 1) * _width, _fill._layer.grid().rows()};
+        forPosts(raster, [&](int x, int y, std::size_t i) {
+            _heights[i] = _fill._post(columnOf(x), _posts.row + y);
+            if (!std::isnan(_heights[i])) _kinds[i] = Kind::Data;
+        });
         for (const RasterLayer::Member& member : _fill._layer.members()) {
             for (int turn = -_turns; turn <= _turns; ++turn) {
                 PixelWindow part = member.window;
@@ -276,27 +254,8 @@ private:
     std::vector<Kind> _kinds;
 };
 
-FoundHeight VoidFill::at(int column, int row) {
-    const int width = _layer.grid().columns();
-    PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock, kVoidBlock, kVoidBlock};
-    block.width = std::min(kVoidBlock, width - block.column);
-    block.height = std::min(kVoidBlock, _layer.grid().rows() - block.row);
-    const int number = row / kVoidBlock * ((width + kVoidBlock - 1) / kVoidBlock) + column / kVoidBlock;
-    auto found = _blocks.find(number);
-    if (found == _blocks.end()) {
-        throwIfStopRequested();
-        if (_held >= kMostHeld) {
-            for (auto it = _blocks.begin(); it != _blocks.end();)
-                it = it->second.heights.empty() ? std::next(it) : _blocks.erase(it);
-            _held = 0;
-        }
-        found = _blocks.emplace(number, Window(*this, block).filled()).first;
-        if (!found->second.heights.empty()) ++_held;
-    }
-    if (found->second.heights.empty()) return {};
-    const auto post = static_cast<std::size_t>((row - block.row) * block.width + column - block.column);
-    const bool isRival = found->second.isRival[post];
-    return {found->second.heights[post], !isRival, isRival};
+VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
+    return Window(*this, block).filled();
 }
 
 }  // namespace osgbindem

@@ -5,9 +5,9 @@
 
 #include "RasterLayer.h"
 
+#include <cstddef>
 #include <functional>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -37,11 +37,25 @@ struct FoundHeight {
 /// rasters alone and not on what was asked before. Not for use by several threads.
 class VoidFill final {
 public:
-    /// Heights of a window of posts within the raster, row by row; NaN where they are missing.
-    using Read = std::function<void(const PixelWindow& window, std::vector<double>& heights)>;
+    /// The height of a post of the raster; NaN where it is missing.
+    using Post = std::function<double(int column, int row)>;
     /// What the coarser rasters have at a post.
     using Coarser = std::function<FoundHeight(int column, int row)>;
 
+    /// Of each post of a block; empty where nothing is to be filled.
+    struct Block {
+        /// Requires: the raster has no data at the post.
+        [[nodiscard]] FoundHeight at(std::size_t place) const {
+            if (heights.empty()) return {};
+            return {heights[place], !isRival[place], isRival[place]};
+        }
+
+        std::vector<float> heights;
+        std::vector<bool> isRival;
+    };
+
+    /// Posts along the side of a block.
+    static constexpr int kBlock = 256;
     /// Posts from the rim within which posts are filled.
     static constexpr int kReach = 128;
     /// Posts that a change of the coarser rasters may reach, no more.
@@ -51,7 +65,7 @@ public:
 
     /// What is in none of the layer's rasters is beyond the border; those round the globe have none in the west and
     /// east. Without coarser rasters only narrow voids are filled.
-    VoidFill(const RasterLayer& layer, Read read) : _layer(layer), _read(std::move(read)) {}
+    VoidFill(const RasterLayer& layer, Post post) : _layer(layer), _post(std::move(post)) {}
 
     /// Before the first void is filled. `hasRivals`: whether some of them are nearly as fine.
     void setCoarser(Coarser coarser, bool hasRivals) {
@@ -59,24 +73,16 @@ public:
         _hasRivals = hasRivals;
     }
 
-    /// Requires: the raster has no data at the post. Throws Failure.
-    [[nodiscard]] FoundHeight at(int column, int row);
+    /// What stands at the posts of a block, row by row. Throws Failure.
+    [[nodiscard]] Block filled(const PixelWindow& block) const;
 
 private:
     class Window;
-    /// Of each post of a block; empty ones have nothing to fill.
-    struct Block {
-        std::vector<float> heights;
-        std::vector<bool> isRival;
-    };
 
     const RasterLayer& _layer;
-    Read _read;
+    Post _post;
     Coarser _coarser;
     bool _hasRivals = false;
-    /// By number of the block.
-    std::map<int, Block> _blocks;
-    std::size_t _held = 0;
 };
 
 }  // namespace osgbindem

@@ -251,7 +251,6 @@ Diagram startTilesFigure(const Scene& scene) {
     }
     figure.begin("heights");
     for (double latitude = -89.75; latitude < 90.0; latitude += kStepDeg) {
-        scene.terrain.prefetch({-180.0, latitude - kStepDeg, 180.0, latitude + kStepDeg});
         for (double longitude = -179.75; longitude < 180.0; longitude += kStepDeg)
             figure.data() << longitude << ',' << latitude << ','
                           << std::lround(scene.terrain.height({latitude, longitude})) << '\n';
@@ -315,7 +314,6 @@ public:
     void add(std::ostream& data, const TileId& tile) {
         const osgbindem::RectDeg rect = tile.rect();
         _stepDeg = (rect.north - rect.south) / kCells;
-        _terrain.prefetch(rect.grownBy(_stepDeg));
         Polyline outline;
         for (int row = 0; row <= kCells; ++row) {
             for (int column = 0; column <= kCells; ++column) {

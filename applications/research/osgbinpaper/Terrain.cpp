@@ -47,7 +47,6 @@ Terrain::Terrain(const std::string& dem, int deepestLevel)
 }
 
 core::Interval Terrain::findHeights(const TileId& tile) {
-    if (tile.level == 0) _source.prefetch(tile.rect());
     core::Interval& heights = _heights[level(tile)][place(tile)];
     if (tile.level == deepestLevel()) return heights = range(tile);
     heights = core::Interval::none();

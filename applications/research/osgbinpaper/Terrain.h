@@ -49,9 +49,6 @@ public:
     /// The point of the terrain at a latitude and a longitude in radians; the altitude given is not used.
     [[nodiscard]] core::Geodetic onSurface(const core::Geodetic& position);
 
-    /// Makes height() fast within the rectangle.
-    void prefetch(const osgbindem::RectDeg& rect) { _source.prefetch(rect); }
-
 private:
     [[nodiscard]] static std::size_t level(const TileId& tile) { return static_cast<std::size_t>(tile.level); }
     [[nodiscard]] static std::size_t place(const TileId& tile) {
