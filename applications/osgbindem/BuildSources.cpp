@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <iterator>
@@ -128,10 +127,14 @@ struct Sources {
     explicit Sources(const std::string& description) {
         std::istringstream in(description);
         for (std::string line; std::getline(in, line);) {
-            if (line.rfind(kElevation, 0) == 0) {
-                rasters.push_back(rasterFrom(line.substr(std::strlen(kElevation))));
-            } else if (line.rfind(kImage, 0) == 0) {
-                images.push_back(rasterFrom(line.substr(std::strlen(kImage))));
+            const std::string kind = line.substr(0, line.find(' ') + 1);
+            if (kind == kElevation || kind == kImage) {
+                Raster& raster = rasters[kind].emplace_back();
+                std::istringstream numbers(line.substr(kind.size()));
+                numbers >> raster.reachDeg;
+                std::getline(numbers, raster.text);
+                std::istringstream(raster.text) >> raster.resolutionDeg >> raster.area.west >> raster.area.south >>
+                    raster.area.east >> raster.area.north;
             } else if (line.rfind(kFoundLevels, 0) != 0) {
                 settings += line + '\n';
             }
@@ -140,19 +143,8 @@ struct Sources {
 
     /// Everything but rasters and images, and the levels where nobody gave them.
     std::string settings;
-    Rasters rasters;
-    Rasters images;
-
-private:
-    static Raster rasterFrom(const std::string& line) {
-        Raster raster;
-        std::istringstream in(line);
-        in >> raster.reachDeg;
-        std::getline(in, raster.text);
-        std::istringstream(raster.text) >> raster.resolutionDeg >> raster.area.west >> raster.area.south >>
-            raster.area.east >> raster.area.north;
-        return raster;
-    }
+    /// By their kind.
+    std::map<std::string, Rasters> rasters;
 };
 
 /// Those of the first that are not in the second.
@@ -197,12 +189,11 @@ bool touches(const ChangedArea& area, const RectDeg& rect) noexcept {
 }
 
 std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
-    const Sources old(before);
-    const Sources current(now);
+    Sources old(before);
+    Sources current(now);
     if (old.settings != current.settings) return std::nullopt;
     ChangedArea area;
-    addChanges(old.rasters, current.rasters, area);
-    addChanges(old.images, current.images, area);
+    for (const char* kind : {kElevation, kImage}) addChanges(old.rasters[kind], current.rasters[kind], area);
     return area;
 }
 

@@ -79,42 +79,41 @@ protected:
         }
         CPLErr error = _numbers.RasterIO(GF_Read, x, y, width, height, data, columns, rows, GDT_Float64, pixelSpace,
                                          lineSpace, nullptr);
-        const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-        std::vector<unsigned char> isThere(count, 1);
+        const auto at = [&](int row) { return reinterpret_cast<double*>(static_cast<char*>(data) + row * lineSpace); };
         for (GDALRasterBand* mask : _code.masks) {
             if (error != CE_None) break;
-            std::vector<unsigned char> part(count);
-            error = mask->RasterIO(GF_Read, x, y, width, height, part.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
-            std::transform(part.begin(), part.end(), isThere.begin(), isThere.begin(),
-                           [](unsigned char a, unsigned char b) -> unsigned char { return a != 0 && b != 0 ? 1 : 0; });
+            std::vector<GByte> isThere(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+            error =
+                mask->RasterIO(GF_Read, x, y, width, height, isThere.data(), columns, rows, GDT_Byte, 0, 0, nullptr);
+            auto next = isThere.begin();
+            for (int row = 0; row < rows; ++row)
+                for (int i = 0; i < columns; ++i)
+                    if (*next++ == 0) at(row)[i] = kMissing;
         }
-        for (int row = 0; error == CE_None && row < rows; ++row) {
-            decode(reinterpret_cast<double*>(static_cast<char*>(data) + row * lineSpace),
-                   isThere.data() + static_cast<std::ptrdiff_t>(row) * columns, columns);
-        }
+        for (int row = 0; error == CE_None && row < rows; ++row)
+            for (int i = 0; i < columns; ++i) at(row)[i] = decoded(at(row)[i]);
         return error;
     }
 
 private:
     static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-    void decode(double* line, const unsigned char* isThere, int count) {
-        const float nodata = static_cast<float>(_code.nodata.value_or(0.0));
-        for (int i = 0; i < count; ++i) {
-            const double number = _isSignedByte && line[i] > 127.0 ? line[i] - 256.0 : line[i];
-            const bool isMissing =
-                isThere[i] == 0 ||
-                (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == nodata)));
-            const double metres = number * _code.scale + _code.offset;
-            const bool isHeight = std::abs(metres) <= _code.highest && number != kLowestNumber;
-            line[i] = isMissing || !isHeight ? kMissing : metres;
-            ++_look.posts;
-            if (!isMissing && isHeight) continue;
-            ++_look.missing;
-            if (isMissing || std::isnan(number)) continue;
+    double decoded(double stored) {
+        const double number = _isSignedByte && stored > 127.0 ? stored - 256.0 : stored;
+        const auto same = static_cast<float>(_code.nodata.value_or(0.0));
+        const bool isMissing =
+            std::isnan(number) ||
+            (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == same)));
+        const double metres = number * _code.scale + _code.offset;
+        const bool isHeight = std::abs(metres) <= _code.highest && number != kLowestNumber;
+        ++_look.posts;
+        if (!isMissing && isHeight) return metres;
+        ++_look.missing;
+        if (!isMissing) {
             ++_look.marks;
             _look.lastMark = number;
         }
+        return kMissing;
     }
 
     GDALRasterBand& _numbers;
