@@ -28,6 +28,9 @@ using osgAnalyticBin::support::writeFile;
 
 namespace {
 
+// Behind the name of what is not complete.
+constexpr const char* kPartial = ".partial";
+
 /// One description of the bytes for both directions, the grid aside.
 template <class Stream, class Record>
 void passRecord(Stream& s, Record& tile) {
@@ -58,27 +61,22 @@ std::vector<fs::path> finestFirst(const std::string& folder, const std::string& 
 
 }  // namespace
 
-DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile) {
+DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile), _sources(rootFile + ".sources") {
     const fs::path path(rootFile);
     _tilesName = path.stem().string() + "_tiles";
     _tiles = (path.parent_path() / _tilesName).string();
-    _partial = _tiles + ".partial";
+    _partial = _tiles + kPartial;
     _old = _tiles + ".old";
     _oldState = _tiles + ".state";
-    _newRoot = rootFile + ".partial";
-    _sources = rootFile + ".sources";
-    _newSources = _sources + ".partial";
-    _folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code error;
-    if (!fs::is_directory(_folder, error)) {
-        throw Failure("no folder \"" + _folder + "\" for the database; create it first");
+    if (!fs::is_directory(folder, error)) {
+        throw Failure("no folder \"" + folder + "\" for the database; create it first");
     }
     if (fs::is_directory(path, error)) {
         throw Failure("the output \"" + rootFile + "\" is a folder; name a file that ends in .osgb");
     }
-    requireOwnFolder(_tiles, false);
-    requireOwnFolder(_partial, true);
-    requireOwnFolder(_old, false);
+    for (const std::string& replaced : {_tiles, _partial, _old}) requireOwnFolder(replaced, replaced == _partial);
 }
 
 DatabaseFolder::~DatabaseFolder() {
@@ -86,8 +84,7 @@ DatabaseFolder::~DatabaseFolder() {
     std::error_code ignored;
     if (!fs::exists(mergeFile(), ignored)) {
         if (doneCount() == 0) fs::remove_all(_partial, ignored);
-        fs::remove(_newRoot, ignored);
-        fs::remove(_newSources, ignored);
+        for (const std::string& file : {_rootFile, _sources}) fs::remove(file + kPartial, ignored);
     }
     _lock->remove();
 }
@@ -185,22 +182,28 @@ std::string DatabaseFolder::standingSources() const {
     return support::contentOf(_sources);
 }
 
-void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
-    writeFile(_newRoot, rootBytes);
-    writeFile(_newSources, sources);
+void DatabaseFolder::writeRoot(const std::string& rootBytes, const std::string& sources) const {
+    writeFile(_rootFile + kPartial, rootBytes);
+    writeFile(_sources + kPartial, sources);
     support::flushToDisk(_partial);
-    remove(_old);
-    remove(_oldState);
-    std::error_code error;
+}
+
+void DatabaseFolder::moveRoot() const {
+    for (const std::string& file : {_sources, _rootFile})
+        if (fs::exists(file + kPartial)) moveTo(file + kPartial, file);
+}
+
+void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
+    writeRoot(rootBytes, sources);
+    for (const std::string& left : {_old, _oldState}) remove(left);
     moveTo(stateFolder(), _oldState);
+    std::error_code error;
     fs::remove(_rootFile, error);
     if (error) throw Failure("cannot replace \"" + _rootFile + "\": " + error.message());
     if (fs::exists(_tiles)) moveTo(_tiles, _old);
     moveTo(_partial, _tiles);
-    moveTo(_newSources, _sources);
-    moveTo(_newRoot, _rootFile);
-    fs::remove_all(_oldState, error);
-    fs::remove_all(_old, error);
+    moveRoot();
+    for (const std::string& left : {_oldState, _old}) fs::remove_all(left, error);
 }
 
 void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sources,
@@ -208,11 +211,8 @@ void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sour
     std::string names;
     const TileFiles files(_tiles, _tilesName, 0);  // paths are the same for any start level
     for (const TileId& tile : removed) names += fs::relative(files.pathOfChildren(tile), _tiles).string() + '\n';
-    std::error_code error;
-    fs::create_directories(stateFolder(), error);
-    writeFile(_newRoot, rootBytes);
-    writeFile(_newSources, sources);
-    support::flushToDisk(_partial);
+    support::makeFolder(stateFolder());
+    writeRoot(rootBytes, sources);
     writeFile(mergeFile(), names);
     carryMergeThrough();
 }
@@ -223,9 +223,7 @@ void DatabaseFolder::carryMergeThrough() {
         support::makeFolder(target.parent_path().string());
         moveTo(file.string(), target.string());
     }
-    for (const std::string& file : {_rootFile, _sources}) {
-        if (fs::exists(file + ".partial")) moveTo(file + ".partial", file);
-    }
+    moveRoot();
     std::ifstream names(mergeFile());
     for (std::string name; std::getline(names, name);) {
         std::error_code ignored;

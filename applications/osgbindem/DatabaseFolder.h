@@ -4,7 +4,7 @@
 #pragma once
 
 #include "DiskFile.h"
-#include "SurveyedTile.h"
+#include "TileBuilder.h"
 #include "TileFiles.h"
 #include "TileLayout.h"
 
@@ -78,6 +78,9 @@ private:
     static constexpr const char* kStateName = "state";
 
     void requireOwnFolder(const std::string& folder, bool mayHaveState) const;
+    /// Writes the root file and what it is made from under other names.
+    void writeRoot(const std::string& rootBytes, const std::string& sources) const;
+    void moveRoot() const;
     void remove(const std::string& folder) const;
     [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
     [[nodiscard]] std::string stateSources() const { return stateFolder() + "/sources.txt"; }
@@ -86,12 +89,9 @@ private:
     void carryMergeThrough();
 
     std::string _rootFile;
-    std::string _newRoot;
     std::string _sources;
-    std::string _newSources;
     /// Without path.
     std::string _tilesName;
-    std::string _folder;
     std::string _tiles;
     std::string _partial;
     std::string _old;

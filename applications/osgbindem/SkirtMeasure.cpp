@@ -10,6 +10,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::TerrainGrid;
+
 namespace {
 
 // Enough for the neighbourhood of the tiles at work; the answers can be found again.
@@ -85,14 +87,11 @@ struct Gap {
     double reach;
 };
 
-Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const osgAnalyticBin::core::Geodetic& position,
+Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const PostId& post, const TileLayout& layout,
                Edge edge) {
-    const double sp = std::sin(position.latitude);
-    const double cp = std::cos(position.latitude);
-    const double sl = std::sin(position.longitude);
-    const double cl = std::cos(position.longitude);
-    const glm::dvec3 up{cp * cl, cp * sl, sp};
-    const glm::dvec3 north{-sp * cl, -sp * sl, cp};
+    const auto [latitude, longitude, altitude] = layout.geodetic(post, 0.0);
+    const glm::dvec3 up = layout.ellipsoid().up(latitude, longitude);
+    const glm::dvec3 north{-up.z * std::cos(longitude), -up.z * std::sin(longitude), std::cos(latitude)};
     const glm::dvec3 way = other - own;
     const double outward = edge == Edge::North ? 1.0 : edge == Edge::South ? -1.0 : 0.0;
     return {-glm::dot(way, up), outward * glm::dot(way, north)};
@@ -111,21 +110,20 @@ glm::dvec3 SkirtMeasure::ecef(const PostId& post) {
     return _layout.ellipsoid().toEcef(_layout.geodetic(post, _mosaic.height(_layout.position(post))));
 }
 
-void SkirtMeasure::measure(SurveyedTile& tile) {
+void SkirtMeasure::measure(const TileId& tile, TerrainGrid& grid) {
     const auto stepsUp = [](const std::vector<double>& metres) {
         std::vector<std::int32_t> steps;
         for (const double value : metres)
-            steps.push_back(static_cast<std::int32_t>(std::ceil(value / osgAnalyticBin::TerrainGrid::kStep)));
+            steps.push_back(static_cast<std::int32_t>(std::ceil(value / TerrainGrid::kStep)));
         return steps;
     };
     for (const Edge edge : kEdges) {
-        const EdgeSkirt skirt = measureEdge(tile, edge);
-        tile.grid.skirts[static_cast<std::size_t>(edge)] = {stepsUp(skirt.depth), stepsUp(skirt.lean)};
+        const EdgeSkirt skirt = measureEdge(tile, grid, edge);
+        grid.skirts[static_cast<std::size_t>(edge)] = {stepsUp(skirt.depth), stepsUp(skirt.lean)};
     }
 }
 
-SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, Edge edge) {
-    const TileId& tile = surveyed.id;
+SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const TileId& tile, const TerrainGrid& grid, Edge edge) {
     const std::size_t count = static_cast<std::size_t>(_layout.posts());
     EdgeSkirt skirt{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
     if (!tile.neighbour(edge)) return skirt;  // a pole: the edge is one point
@@ -133,8 +131,8 @@ SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, 
     Line own{edge, tile, firstPostOf(tile, _layout, edge), {}, {}};
     for (int i = 0; i < _layout.posts(); ++i) {
         const PostId post = own.post(tile.level, own.along() + i, own.across());
-        own.heights.push_back(surveyed.grid.height(static_cast<int>(post.column - surveyed.grid.firstColumn),
-                                                   static_cast<int>(post.row - surveyed.grid.firstRow)));
+        own.heights.push_back(
+            grid.height(static_cast<int>(post.column - grid.firstColumn), static_cast<int>(post.row - grid.firstRow)));
         own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
     }
     compareWithFiner(own, skirt);
@@ -144,7 +142,7 @@ SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const SurveyedTile& surveyed, 
     // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor
     // covers the bend between compared points.
     constexpr double kFactor = 1.05;
-    const double safety = 2.0 * _layout.quantum(coarsest) + osgAnalyticBin::TerrainGrid::kStep;
+    const double safety = 2.0 * _layout.quantum(coarsest) + TerrainGrid::kStep;
     for (double& depth : skirt.depth) depth = kFactor * depth + safety;
     for (double& lean : skirt.lean) lean *= kFactor;
     return skirt;
@@ -166,8 +164,7 @@ void SkirtMeasure::addFiner(const Line& own, int level, std::int64_t place, Segm
         const double share = static_cast<double>(along % parts) / static_cast<double>(parts);
         const double height = _mosaic.height(_layout.position(post));
         const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
-                                   _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
-                                   _layout.geodetic(post, 0.0), own.edge);
+                                   _layout.ellipsoid().toEcef(_layout.geodetic(post, height)), post, _layout, own.edge);
         raise(segment.drop, gap.drop);
         raise(segment.lean, gap.reach);
         segment.lowest = std::min(segment.lowest, height);
@@ -201,7 +198,7 @@ void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& ski
         const glm::dvec3 b = ecef(own.post(level, (along >> shift) + 1, own.across() >> shift));
         const PostId post = own.post(own.tile.level, along, own.across());
         const Gap gap = gapBetween(own.points[i], between(a, b, static_cast<double>(part) / static_cast<double>(parts)),
-                                   _layout.geodetic(post, 0.0), own.edge);
+                                   post, _layout, own.edge);
         raise(skirt.depth[i], gap.drop);
         raise(skirt.lean[i], gap.reach);
     }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "DemMosaic.h"
-#include "SurveyedTile.h"
+#include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <glm/vec3.hpp>
@@ -39,8 +39,8 @@ public:
     /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
     [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
 
-    /// Gives the tile its skirts, rounded up to whole steps. Requires: it has its heights.
-    void measure(SurveyedTile& tile);
+    /// Gives the tile its skirts, rounded up to whole steps. Requires: `grid` has its heights.
+    void measure(const TileId& tile, osgAnalyticBin::TerrainGrid& grid);
 
 private:
     struct Line;
@@ -59,7 +59,7 @@ private:
     /// By level and first post.
     using Segments = std::map<std::pair<int, std::size_t>, Segment>;
 
-    [[nodiscard]] EdgeSkirt measureEdge(const SurveyedTile& surveyed, Edge edge);
+    [[nodiscard]] EdgeSkirt measureEdge(const TileId& tile, const osgAnalyticBin::TerrainGrid& grid, Edge edge);
     /// With all levels of tiles that stand along the edge, and only where they do.
     void compareWithFiner(const Line& own, EdgeSkirt& skirt);
     /// The tiles below those at a place along the edge, see Line::tileAt().

@@ -123,7 +123,7 @@ void TileBuilder::finishSurvey(SurveyedTile& tile) {
         samplePost(tile, grid.cells + 1, i);
     }
     placeOrigin(grid, _layout, tile.id.level);
-    _skirts.measure(tile);
+    _skirts.measure(tile.id, grid);
 }
 
 void TileBuilder::buildChildren(SurveyedTile& tile) {
