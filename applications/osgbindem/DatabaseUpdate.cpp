@@ -16,10 +16,8 @@
 #include <osgDB/ReadFile>
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <iterator>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -47,100 +45,84 @@ std::vector<AnalyticBin> binsFrom(const std::string& file, std::size_t tiles) {
     return bins;
 }
 
-/// What builders share that update one database.
-struct Change {
-    Change(const DatabaseFolder& folder, const TileLayout& tiles, ChangedArea changed)
-        : layout(tiles),
-          files(folder.standingFiles(tiles)),
-          starts(binsFrom(folder.rootFile(), tiles.startTiles().size())),
-          area(std::move(changed)) {}
-
-    const TileLayout& layout;
-    /// Of the database as it is.
-    const TileFiles files;
-    /// Bins of the start tiles.
-    const std::vector<AnalyticBin> starts;
-    const ChangedArea area;
-    /// Tiles whose children are no longer there.
-    std::mutex mutex;
-    std::set<TileId> removed;
-};
-
-/// Tells a builder which tiles of the database come out as they stand, and takes those over.
+/// Tells builders which tiles of the database come out as they stand, and takes those over. For all threads.
 ///
 /// A tile's mesh depends on heights within one spacing of posts around it, or on those between the posts of a coarser
 /// neighbour along the edge; its skirts depend besides on which of its neighbours, of those above them, and of those
 /// below them along the edge have children. Its bin depends on the tiles below. What changes for a tile changes for all
 /// above it, so a tile that stays has no changes below.
-class Updater final {
+class Update final {
 public:
-    Updater(TileBuilder& builder, Change& change) : _builder(builder), _change(change), _layout(change.layout) {}
-    Updater(const Updater&) = delete;
-    Updater& operator=(const Updater&) = delete;
+    Update(const DatabaseFolder& folder, const TileLayout& layout, ChangedArea area)
+        : _layout(layout),
+          _files(folder.standingFiles(layout)),
+          _starts(binsFrom(folder.rootFile(), layout.startTiles().size())),
+          _area(std::move(area)) {}
 
     /// Whether the tile, or one below it, may come out otherwise.
-    [[nodiscard]] bool hasChanged(const TileId& tile) const {
+    [[nodiscard]] bool hasChanged(TileBuilder& builder, const TileId& tile) const {
         int coarsest =
             std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
-        for (const Edge edge : kEdges) coarsest = std::min(coarsest, _builder.skirts().coarsestAcross(tile, edge));
-        if (touches(_change.area, tile.rect().grownBy(_layout.spacingDeg(coarsest)))) return true;
+        for (const Edge edge : kEdges) coarsest = std::min(coarsest, builder.skirts().coarsestAcross(tile, edge));
+        if (touches(_area, tile.rect().grownBy(_layout.spacingDeg(coarsest)))) return true;
         return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
             const auto neighbour = tile.neighbour(edge);
-            return neighbour && (touches(_change.area, neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour));
+            return neighbour && (touches(_area, neighbour->rect()) || isRefinedOtherwiseAbove(builder, *neighbour));
         });
     }
 
     /// A tile with everything below it as it is; the bin of a tile holds whatever is below. Returns: nullopt where
     /// something changes. Throws Failure.
-    [[nodiscard]] std::optional<SurveyedTile> find(const TileId& tile) {
-        const bool hasChildren = _builder.skirts().hasChildren(tile);
+    [[nodiscard]] std::optional<SurveyedTile> find(TileBuilder& builder, const TileId& tile) {
+        const bool hasChildren = builder.skirts().hasChildren(tile);
         if (!hasChildren) removeBelow(tile);
-        if (!hasChildren || hasChanged(tile)) return std::nullopt;
-        SurveyedTile surveyed = _builder.surveyAlone(tile);
+        if (!hasChildren || hasChanged(builder, tile)) return std::nullopt;
+        SurveyedTile surveyed = builder.surveyAlone(tile);
         surveyed.below = standingBin(tile);
         if (!surveyed.below.valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
         surveyed.range = surveyed.below.bin().altitude();
         return surveyed;
     }
 
+    /// Tiles whose children are no longer there. Requires: no thread is at work.
+    [[nodiscard]] std::vector<TileId> removed() const { return {_removed.begin(), _removed.end()}; }
+
 private:
-    [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const {
+    [[nodiscard]] bool isRefinedOtherwiseAbove(TileBuilder& builder, const TileId& neighbour) const {
         for (int level = _layout.startLevel(); level < neighbour.level; ++level) {
             const TileId above = neighbour.ancestor(level);
-            const bool hasChildren = _builder.skirts().hasChildren(above);
-            if (touches(_change.area, above.rect()) && hasChildren != _change.files.hasChildren(above)) return true;
+            const bool hasChildren = builder.skirts().hasChildren(above);
+            if (touches(_area, above.rect()) && hasChildren != _files.hasChildren(above)) return true;
             if (!hasChildren) return false;
         }
         return false;
     }
-    [[nodiscard]] AnalyticBin standingBin(const TileId& tile) {
+    [[nodiscard]] AnalyticBin standingBin(const TileId& tile) const {
         if (tile.level == _layout.startLevel()) {
             const std::vector<TileId>& tiles = _layout.startTiles();
             const auto place = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
-            return _change.starts[static_cast<std::size_t>(place)];
+            return _starts[static_cast<std::size_t>(place)];
         }
-        const TileId parent = tile.ancestor(tile.level - 1);
-        if (!(_parent == parent)) {
-            _siblings = binsFrom(_change.files.pathOfChildren(parent), 4);
-            _parent = parent;
-        }
-        return _siblings[static_cast<std::size_t>(tile.x % 2 + 2 * (tile.y % 2))];
+        return binsFrom(_files.pathOfChildren(tile.ancestor(tile.level - 1)),
+                        4)[static_cast<std::size_t>(tile.x % 2 + 2 * (tile.y % 2))];
     }
     void removeBelow(const TileId& tile) {
-        if (!_change.files.hasChildren(tile)) return;
+        if (!_files.hasChildren(tile)) return;
         {
-            const std::lock_guard<std::mutex> guard(_change.mutex);
-            _change.removed.insert(tile);
+            const std::lock_guard<std::mutex> guard(_mutex);
+            _removed.insert(tile);
         }
         for (const TileId& child : tile.children()) removeBelow(child);
     }
 
-    TileBuilder& _builder;
-    Change& _change;
     const TileLayout& _layout;
-    /// The bins of the last file that was read, and whose children they are of.
-    std::optional<TileId> _parent;
-    std::vector<AnalyticBin> _siblings;
+    /// Of the database as it is.
+    const TileFiles _files;
+    /// Bins of the start tiles.
+    const std::vector<AnalyticBin> _starts;
+    const ChangedArea _area;
+    std::mutex _mutex;
+    std::set<TileId> _removed;
 };
 
 ChangedArea requireUpdatable(const DatabaseFolder& folder, const std::string& sources) {
@@ -172,22 +154,19 @@ void updateDatabase(const Settings& given) {
         if (!settings.quiet) std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
         return;
     }
-    Change change(folder, layout, area);
+    Update update(folder, layout, area);
     folder.clear();
     std::vector<Task> tasks;
     {
         const TileFiles files = folder.files(layout);
         TileBuilder builder(settings, layout, files);
-        const Updater updater(builder, change);
         const std::vector<Task> plan = planTasks(builder.mosaic(), layout);
         std::copy_if(plan.begin(), plan.end(), std::back_inserter(tasks),
-                     [&](const Task& task) { return updater.hasChanged(task.tile); });
+                     [&](const Task& task) { return update.hasChanged(builder, task.tile); });
     }
     Progress progress(!settings.quiet, weightOf(tasks));
-    const Site site{settings, layout, folder, progress, [&](TileBuilder& builder) {
-                        const auto updater = std::make_shared<Updater>(builder, change);
-                        return [updater](const TileId& tile) { return updater->find(tile); };
-                    }};
+    const Site site{settings, layout, folder, progress,
+                    [&](TileBuilder& builder, const TileId& tile) { return update.find(builder, tile); }};
     std::string root;
     try {
         doTasks(site, tasks, nullptr);
@@ -196,7 +175,7 @@ void updateDatabase(const Settings& given) {
         folder.clear();
         throw;
     }
-    folder.merge(root, sources, {change.removed.begin(), change.removed.end()});
+    folder.merge(root, sources, update.removed());
     progress.finish();
 }
 

@@ -65,7 +65,7 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     site.progress.add(left);
 }
 
-using Work = std::function<void(TileBuilder& builder, const FinishedTasks& standing)>;
+using Work = std::function<void(TileBuilder& builder)>;
 
 /// Does `work` in each thread with a builder of its own.
 void inThreads(const Site& site, const Glance& glance, const Work& work) {
@@ -92,9 +92,9 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
         threads.push_back(std::async(std::launch::async, [&, mayLeave] {
             guarded([&] {
                 TileBuilder builder(site.settings, site.layout, site.files);
-                const FinishedTasks standing = site.standing ? site.standing(builder) : nullptr;
-                builder.setFinishedTasks(standing);
-                work(builder, standing);
+                if (site.standing)
+                    builder.setFinishedTasks([&](const TileId& tile) { return site.standing(builder, tile); });
+                work(builder);
             });
             ++finished;
             mayLeave.wait();
@@ -150,7 +150,7 @@ std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
 
 void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
     std::atomic<std::size_t> next{0};
-    inThreads(site, glance, [&](TileBuilder& builder, const FinishedTasks&) {
+    inThreads(site, glance, [&](TileBuilder& builder) {
         for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
     });
 }
@@ -161,9 +161,9 @@ std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& pl
     const std::vector<TileId>& tiles = site.layout.startTiles();
     std::vector<BuiltTile> starts(tiles.size());
     std::atomic<std::size_t> next{0};
-    inThreads(site, nullptr, [&](TileBuilder& builder, const FinishedTasks& standing) {
+    inThreads(site, nullptr, [&](TileBuilder& builder) {
         builder.setFinishedTasks([&](const TileId& tile) {
-            if (done.count(tile) == 0) return standing ? standing(tile) : std::nullopt;
+            if (done.count(tile) == 0) return site.standing ? site.standing(builder, tile) : std::nullopt;
             auto record = site.folder.find(tile, site.layout);
             if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
             return record;

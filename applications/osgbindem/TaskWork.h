@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace osgbindem {
@@ -89,8 +90,8 @@ struct Site {
     const TileLayout& layout;
     const DatabaseFolder& folder;
     Progress& progress;
-    /// Of a database that is updated: finds tiles that stay as they are, for a builder that lasts as long.
-    std::function<FinishedTasks(TileBuilder& builder)> standing = nullptr;
+    /// Of a database that is updated: finds tiles that stay as they are, with a builder of the thread.
+    std::function<std::optional<SurveyedTile>(TileBuilder& builder, const TileId& tile)> standing = nullptr;
     const TileFiles files = folder.files(layout);
 };
 
