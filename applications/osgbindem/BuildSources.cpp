@@ -69,7 +69,7 @@ void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::o
             << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file->path())
             << ", blended over ";
         member->band.describe(out);
-        out << ", scale " << member->file->options().metresPerUnit.value_or(0.0);
+        out << ", scale " << member->file->input().metresPerUnit.value_or(0.0);
         // A raster may be made of many files: a mosaic, or one with overviews beside it.
         const CPLStringList files(member->file->file().GetFileList());
         for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);

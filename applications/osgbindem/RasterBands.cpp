@@ -169,30 +169,25 @@ std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpati
     return unit == "m" ? std::optional(1.0) : std::nullopt;
 }
 
-std::vector<GDALRasterBand*> masksOf(GDALDataset& dataset, GDALRasterBand& band) {
-    std::vector<GDALRasterBand*> masks;
-    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
-        GDALRasterBand* other = dataset.GetRasterBand(i);
-        if (other != &band && other->GetColorInterpretation() == GCI_AlphaBand) masks.push_back(other);
-    }
-    if ((band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA | GMF_ALPHA)) == 0) masks.push_back(band.GetMaskBand());
-    return masks;
-}
-
-/// The band with the heights; `notes` get a word when it is one of several.
-GDALRasterBand& heightBandOf(GDALDataset& file, const RasterOptions& options, std::vector<std::string>& notes) {
+/// The band with the heights, and what masks it; `notes` get a word when it is one of several.
+GDALRasterBand& heightBandOf(GDALDataset& file, const Settings& settings, const std::string& path,
+                             std::vector<GDALRasterBand*>& masks, std::vector<std::string>& notes) {
     const int count = file.GetRasterCount();
-    const int number = options.band.value_or(1);
+    const int number = settings.band.value_or(1);
     if (number > count) {
-        throw Failure("no band " + std::to_string(number) + " in \"" + options.path + "\", which has " +
-                      std::to_string(count) + "; see --band");
+        throw Failure("no band " + std::to_string(number) + " in \"" + path + "\", which has " + std::to_string(count) +
+                      "; see --band");
     }
     GDALRasterBand& band = *file.GetRasterBand(number);
-    int others = 0;
-    for (int i = 1; i <= count; ++i) {
-        if (i != number && file.GetRasterBand(i)->GetColorInterpretation() != GCI_AlphaBand) ++others;
+    bool isAlone = true;
+    for (GDALRasterBand* other : file.GetBands()) {
+        if (other == &band) continue;
+        const bool isAlpha = other->GetColorInterpretation() == GCI_AlphaBand;
+        if (isAlpha) masks.push_back(other);
+        isAlone = isAlone && isAlpha;
     }
-    if (others > 0 && !options.band) {
+    if ((band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA | GMF_ALPHA)) == 0) masks.push_back(band.GetMaskBand());
+    if (!isAlone && !settings.band) {
         const std::string name = band.GetDescription();
         notes.push_back("band " + std::to_string(number) + " of " + std::to_string(count) +
                         (name.empty() ? name : ", \"" + name + "\",") + " has the heights; see --band");
@@ -234,36 +229,34 @@ double brightest(GDALDataset& file, const std::vector<int>& bands, const std::st
 
 }  // namespace
 
-GdalDataset heightsOf(GDALDataset& file, const RasterOptions& options, const OGRSpatialReference& horizontal,
-                      std::vector<std::string>& notes) {
-    GDALRasterBand& band = heightBandOf(file, options, notes);
+GdalDataset heightsOf(GDALDataset& file, const Settings& settings, const DemInput& input,
+                      const OGRSpatialReference& horizontal, std::vector<std::string>& notes) {
     HeightCode code;
+    GDALRasterBand& band = heightBandOf(file, settings, input.path, code.masks, notes);
     int hasNodata = 0;
     const double nodata = band.GetNoDataValue(&hasNodata);
     if (hasNodata != 0) code.nodata = nodata;
-    if (options.nodata) code.nodata = options.nodata;
-    const OGRSpatialReference* reference = referenceOf(file);
-    const auto declared = declaredMetresPerUnit(band, reference);
-    if (!declared && !options.metresPerUnit) {
-        throw Failure("heights of \"" + options.path + "\" are in \"" + band.GetUnitType() +
+    if (settings.nodata) code.nodata = settings.nodata;
+    const auto declared = declaredMetresPerUnit(band, referenceOf(file));
+    if (!declared && !input.metresPerUnit) {
+        throw Failure("heights of \"" + input.path + "\" are in \"" + band.GetUnitType() +
                       "\", which is no length that is known; give --height-unit");
     }
-    const double metres = options.metresPerUnit.value_or(declared.value_or(1.0));
-    if (!options.metresPerUnit && metres != 1.0) {
+    const double metres = input.metresPerUnit.value_or(declared.value_or(1.0));
+    if (!input.metresPerUnit && metres != 1.0) {
         notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
     }
     code.scale = band.GetScale() * metres;
     code.offset = band.GetOffset() * metres;
     if (code.offset > 0.5 * horizontal.GetSemiMajor()) {
-        throw Failure("heights of \"" + options.path +
+        throw Failure("heights of \"" + input.path +
                       "\" are distances from the middle of the body, with an offset of " +
                       std::string(CPLSPrintf("%.9g", code.offset)) +
                       " m; take it away with gdal_edit.py -offset 0, and see --radii");
     }
     // A user's factor may exaggerate heights.
-    const double most = options.isWgs84 ? kHighestOnEarth : kHighest;
-    code.highest = most * std::max(1.0, std::abs(options.metresPerUnit.value_or(1.0)));
-    code.masks = masksOf(file, band);
+    const double most = settings.isWgs84 ? kHighestOnEarth : kHighest;
+    code.highest = most * std::max(1.0, std::abs(input.metresPerUnit.value_or(1.0)));
     return GdalDataset(new HeightDataset(band, code, horizontal));
 }
 

@@ -199,23 +199,24 @@ double roundedSpacing(double circleDeg, double spacingDeg) {
 
 }  // namespace
 
-RasterFile::RasterFile(RasterOptions options) : _options(std::move(options)) {
-    open(-1);
-    const int number = overview();
-    if (number >= 0) open(number);
+RasterFile::RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg)
+    : _input(std::move(input)) {
+    open(settings, isElevation, -1);
+    const int number = overview(spacingDeg);
+    if (number >= 0) open(settings, isElevation, number);
 }
 
-void RasterFile::open(int overview) {
+void RasterFile::open(const Settings& settings, bool isElevation, int overview) {
     _decoded.reset();
     _file = opened(path(), overview);
     requireGeoreferencing(*_file, path());
-    takeReference();
+    takeReference(settings.isWgs84);
     _notes.clear();
-    _decoded = _options.isElevation ? heightsOf(*_file, _options, _horizontal, _notes) : coloursOf(*_file, path());
+    _decoded = isElevation ? heightsOf(*_file, settings, _input, _horizontal, _notes) : coloursOf(*_file, path());
     place();
 }
 
-void RasterFile::takeReference() {
+void RasterFile::takeReference(bool isWgs84) {
     _target = wgs84();
     const OGRSpatialReference* reference = referenceOf(*_file);
     if (reference == nullptr) return;
@@ -227,7 +228,7 @@ void RasterFile::takeReference() {
     if (reference->IsLocal() != 0) {
         throw Failure("the reference system of \"" + path() + "\" is local; give one that has a place on the globe");
     }
-    if (!_options.isWgs84) {
+    if (!isWgs84) {
         _target.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
         _target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     } else if (!isOfEarth(*reference)) {
@@ -330,7 +331,7 @@ void RasterFile::placeWarped() {
 }
 
 /// The number of the coarsest that is as fine as needed; -1 without one.
-int RasterFile::overview() const {
+int RasterFile::overview(double spacingDeg) const {
     GDALRasterBand& band = *_file->GetRasterBand(1);
     const double fullDeg = std::min(_eastDeg, _northDeg);
     int level = -1;
@@ -340,7 +341,7 @@ int RasterFile::overview() const {
         if (overview == nullptr) continue;
         const double deg = fullDeg * std::max(static_cast<double>(band.GetXSize()) / overview->GetXSize(),
                                               static_cast<double>(band.GetYSize()) / overview->GetYSize());
-        if (deg <= coarsestDeg || deg > _options.spacingDeg * (1.0 + kSlack)) continue;
+        if (deg <= coarsestDeg || deg > spacingDeg * (1.0 + kSlack)) continue;
         coarsestDeg = deg;
         level = i;
     }

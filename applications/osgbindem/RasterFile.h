@@ -23,11 +23,12 @@ using GeoTransform = std::array<double, 6>;
 /// any way; colours are bands of bytes, red, green, blue and alpha.
 class RasterFile final {
 public:
-    /// Throws Failure.
-    explicit RasterFile(RasterOptions options);
+    /// `isElevation`: not colours. `spacingDeg`: no finer posts are needed, and the coarsest overview that is as fine
+    /// counts as the raster; 0 for none. Throws Failure.
+    RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg);
 
-    [[nodiscard]] const RasterOptions& options() const noexcept { return _options; }
-    [[nodiscard]] const std::string& path() const noexcept { return _options.path; }
+    [[nodiscard]] const DemInput& input() const noexcept { return _input; }
+    [[nodiscard]] const std::string& path() const noexcept { return _input.path; }
     [[nodiscard]] GDALDataset& dataset() const noexcept { return *_decoded; }
     /// As the file has it.
     [[nodiscard]] GDALDataset& file() const noexcept { return *_file; }
@@ -61,17 +62,17 @@ public:
     }
 
 private:
-    void open(int overview);
-    void takeReference();
+    void open(const Settings& settings, bool isElevation, int overview);
+    void takeReference(bool isWgs84);
     void place();
     void placeWarped();
     [[nodiscard]] bool isInDegreesOfGlobe() const;
     /// From the raster's own coordinates to degrees of the globe. Throws Failure.
     [[nodiscard]] std::unique_ptr<OGRCoordinateTransformation> wayToGlobe() const;
     [[nodiscard]] osgAnalyticBin::support::Failure noWayToGlobe() const;
-    [[nodiscard]] int overview() const;
+    [[nodiscard]] int overview(double spacingDeg) const;
 
-    RasterOptions _options;
+    DemInput _input;
     GdalDataset _file;
     /// The metres or colours that are made of the file.
     GdalDataset _decoded;

@@ -187,7 +187,6 @@ BlendBand::BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all,
     : _metresPerDegree(radius * kRadiansPerDegree) {
     _width = width ? *width : defaultWidth(grid, all, _metresPerDegree);
     if (!(_width > 0.0)) return;
-    _west = grid.extent().west;
     addEdges(grid, all, true);
     if (!grid.isGlobal()) addEdges(grid, all, false);
 }
@@ -224,30 +223,22 @@ void BlendBand::addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& 
     }
 }
 
-double BlendBand::shareWithin(const PositionDeg& position) const noexcept {
-    const double latitude = position.latitudeDeg;
-    // Half a pixel of rounding at the western border is not a turn.
-    constexpr double kSlack = 1e-6;
-    const double turns = std::floor((position.longitudeDeg - _west + kSlack) / 360.0);
-    const double longitude = position.longitudeDeg - 360.0 * turns;
-    const double east = cosine(latitude);
+double BlendBand::metresTo(const RectDeg& rect) const noexcept {
+    const double eastward = std::min(cosine(rect.south), cosine(rect.north));
     double nearest = std::numeric_limits<double>::infinity();
     for (const RectDeg& edge : _edges) {
-        const double y = gap(latitude, latitude, edge.south, edge.north);
-        const double x = east * gap(longitude, longitude, edge.west, edge.east);
-        nearest = std::min(nearest, x * x + y * y);
-    }
-    return glm::smoothstep(0.0, 1.0, _metresPerDegree * std::sqrt(nearest) / _width);
-}
-
-bool BlendBand::touches(const RectDeg& rect) const noexcept {
-    const double east = std::min(cosine(rect.south), cosine(rect.north));
-    return std::any_of(_edges.begin(), _edges.end(), [&](const RectDeg& edge) {
         const RectDeg turned = edge.turnedTo(rect);
         const double y = gap(rect.south, rect.north, turned.south, turned.north);
-        const double x = east * gap(rect.west, rect.east, turned.west, turned.east);
-        return _metresPerDegree * std::hypot(x, y) <= _width;
-    });
+        const double x = eastward * gap(rect.west, rect.east, turned.west, turned.east);
+        nearest = std::min(nearest, x * x + y * y);
+    }
+    return _metresPerDegree * std::sqrt(nearest);
+}
+
+double BlendBand::share(const PositionDeg& position) const noexcept {
+    if (_edges.empty()) return 1.0;
+    const auto [latitude, longitude] = position;
+    return glm::smoothstep(0.0, 1.0, metresTo({longitude, latitude, longitude, latitude}) / _width);
 }
 
 void BlendBand::describe(std::ostream& out) const {
@@ -297,13 +288,13 @@ GDALDataset& RasterLayer::dataset() const noexcept {
     return _warped ? *_warped : _mosaic ? *_mosaic : first().dataset();
 }
 
-RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::vector<RasterOptions>& rasters,
-                                          std::optional<int> tileCells) {
+RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::vector<DemInput>& rasters,
+                                          bool areElevation, double spacingDeg, std::optional<int> tileCells) {
     std::vector<Members> groups;
     for (std::size_t number = 0; number < rasters.size(); ++number) {
         Members own(1);
         own.front().number = number;
-        own.front().file = std::make_unique<RasterFile>(rasters[number]);
+        own.front().file = std::make_unique<RasterFile>(settings, rasters[number], areElevation, spacingDeg);
         const RasterFile& file = *own.front().file;
         // All groups that the raster joins become one with it.
         const auto apart = std::stable_partition(groups.begin(), groups.end(), [&](const Members& group) {
@@ -331,19 +322,15 @@ RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::v
 }
 
 RasterLayer::Layers RasterLayer::elevationOf(const Settings& settings, const TileLayout* layout) {
-    const double spacingDeg = settings.useOverviews && layout ? layout->spacingDeg(layout->deepestLevel()) : 0.0;
-    std::vector<RasterOptions> rasters;
-    for (const DemInput& dem : settings.dems) {
-        rasters.push_back(
-            {dem.path, settings.nodata, settings.isWgs84, true, spacingDeg, dem.metresPerUnit, settings.band});
-    }
-    return layersOf(settings, rasters, layout ? std::optional(layout->cells()) : std::nullopt);
+    if (!layout) return layersOf(settings, settings.dems, true, 0.0, std::nullopt);
+    const double spacingDeg = settings.useOverviews ? layout->spacingDeg(layout->deepestLevel()) : 0.0;
+    return layersOf(settings, settings.dems, true, spacingDeg, layout->cells());
 }
 
 RasterLayer::Layers RasterLayer::imagesOf(const Settings& settings) {
-    std::vector<RasterOptions> rasters;
-    for (const std::string& path : settings.images) rasters.push_back({path, {}, settings.isWgs84, false, 0.0, {}, {}});
-    return layersOf(settings, rasters, std::nullopt);
+    std::vector<DemInput> images;
+    for (const std::string& path : settings.images) images.push_back({path});
+    return layersOf(settings, images, false, 0.0, std::nullopt);
 }
 
 double RasterLayer::share(const PositionDeg& position) const noexcept {

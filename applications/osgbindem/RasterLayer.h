@@ -30,24 +30,22 @@ public:
               double radius);
 
     /// The raster's share of the height, from 0 at the border to 1 at the end of the band.
-    [[nodiscard]] double share(const PositionDeg& position) const noexcept {
-        return _edges.empty() ? 1.0 : shareWithin(position);
-    }
+    [[nodiscard]] double share(const PositionDeg& position) const noexcept;
 
     /// Whether the band may reach into the rectangle.
-    [[nodiscard]] bool touches(const RectDeg& rect) const noexcept;
+    [[nodiscard]] bool touches(const RectDeg& rect) const noexcept { return metresTo(rect) <= _width; }
 
     /// Writes all that shares depend on.
     void describe(std::ostream& out) const;
 
 private:
-    [[nodiscard]] double shareWithin(const PositionDeg& position) const noexcept;
+    /// To the nearest open part of the border; infinite without one.
+    [[nodiscard]] double metresTo(const RectDeg& rect) const noexcept;
     /// Adds the open parts of the southern and the northern border, or of the western and the eastern one.
     void addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& all, bool areParallels);
 
     double _width = 0.0;
     double _metresPerDegree = 0.0;
-    double _west = 0.0;
     /// Parts of the border, as rectangles of no width or no height. Longitudes are those of the raster.
     std::vector<RectDeg> _edges;
 };
@@ -97,8 +95,8 @@ public:
     [[nodiscard]] bool isBlendedIn(const RectDeg& rect) const noexcept;
 
 private:
-    [[nodiscard]] static Layers layersOf(const Settings& settings, const std::vector<RasterOptions>& rasters,
-                                         std::optional<int> tileCells);
+    [[nodiscard]] static Layers layersOf(const Settings& settings, const std::vector<DemInput>& rasters,
+                                         bool areElevation, double spacingDeg, std::optional<int> tileCells);
     [[nodiscard]] const RasterFile& first() const noexcept { return *_members.front().file; }
     void warp(std::optional<int> tileCells);
 
