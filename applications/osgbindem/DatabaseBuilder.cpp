@@ -10,16 +10,16 @@
 #include "TaskWork.h"
 #include "TileFiles.h"
 
+#include <cpl_string.h>
+
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -69,27 +69,28 @@ std::string interruption(const DatabaseFolder& folder, std::size_t parts) {
 }
 
 std::string placeOf(const Tally::Extreme& extreme) {
-    std::ostringstream out;
+    const double latitude = extreme.position.latitudeDeg;
     const double longitude = std::remainder(extreme.position.longitudeDeg, 360.0);
-    out << std::fixed << std::setprecision(1) << extreme.metres << " m (" << std::setprecision(4)
-        << std::abs(extreme.position.latitudeDeg) << (extreme.position.latitudeDeg < 0.0 ? " S, " : " N, ")
-        << std::abs(longitude) << (longitude < 0.0 ? " W)" : " E)");
-    return out.str();
+    return CPLSPrintf("%.1f m (%.4f %c, %.4f %c)", extreme.metres, std::abs(latitude), latitude < 0.0 ? 'S' : 'N',
+                      std::abs(longitude), longitude < 0.0 ? 'W' : 'E');
 }
 
 /// Says what was built, in lines, and warns where data is missing. `seconds`: the time that it took.
 void tell(const Tally& tally, const std::string& name, int startLevel, double seconds) {
-    std::cout << std::fixed << std::setprecision(0) << name << ": " << tally.tiles << " tiles in levels " << startLevel
-              << " to " << tally.deepest << ", " << tally.files << " files, " << std::setprecision(1)
-              << std::ldexp(tally.bytes, -20) << " MiB, " << seconds << " s";
+    std::cout << name
+              << CPLSPrintf(": %.0f tiles in levels %d to %.0f, %.0f files, %.1f MiB, %.1f s", tally.tiles, startLevel,
+                            tally.deepest, tally.files, std::ldexp(tally.bytes, -20), seconds);
     if (tally.missing < tally.posts)
         std::cout << "\nheights from " << placeOf(tally.lowest) << " to " << placeOf(tally.highest);
-    std::cout << std::setprecision(0) << "; of " << tally.posts << " posts, " << tally.filled
-              << " are filled voids and " << tally.missing << " are at 0 m without data" << std::endl;
+    std::cout << CPLSPrintf("; of %.0f posts, %.0f are filled voids and %.0f are at 0 m without data", tally.posts,
+                            tally.filled, tally.missing)
+              << std::endl;
     if (tally.missing == 0.0) return;
-    std::cerr << "osgbindem: warning: no raster has data for " << std::fixed << std::setprecision(0) << tally.missing
-              << " of " << tally.posts
-              << " posts, which are at 0 m; add a raster below, or build a part of the earth with -te" << std::endl;
+    std::cerr << CPLSPrintf(
+                     "osgbindem: warning: no raster has data for %.0f of %.0f posts, which are at 0 m; add a "
+                     "raster below, or build a part of the earth with -te",
+                     tally.missing, tally.posts)
+              << std::endl;
 }
 
 /// The three times at which all ranks wait for each other: when the first one has prepared the folder, when all parts

@@ -3,6 +3,7 @@
 
 #include "TileMesh.h"
 
+#include "Angles.h"
 #include "PackedTerrain.h"
 #include "Relief.h"
 #include "TileNode.h"
@@ -116,8 +117,7 @@ void drape(osg::Geometry& geometry, osg::Image& image) {
 }
 
 using osgAnalyticBin::TerrainGrid;
-
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using osgAnalyticBin::support::kRadiansPerDegree;
 
 // Vertices at the poles are rounded to within this of the axis, in metres.
 constexpr double kAxisTolerance = 1.0;
