@@ -8,8 +8,6 @@
 #include "Settings.h"
 #include "TileLayout.h"
 
-#include <ogr_spatialref.h>
-
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -17,28 +15,6 @@
 #include <vector>
 
 namespace osgbindem {
-
-/// What is added to heights of a raster so that they are above the ellipsoid: the height of the geoid, found by PROJ.
-/// Not for use by several threads: each has its own.
-class VerticalShift final {
-public:
-    /// `vertical`: the vertical part of the reference system of the raster at `path`, empty when it has none.
-    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what `vertical` says.
-    /// Throws Failure when PROJ has no grid for it.
-    VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path);
-
-    [[nodiscard]] bool isNone() const noexcept { return !_transformation; }
-
-    /// For the user: what heights are above.
-    [[nodiscard]] const std::string& what() const noexcept { return _what; }
-
-    /// Metres. Throws Failure where the grid has none.
-    [[nodiscard]] double at(const PositionDeg& position) const;
-
-private:
-    std::string _what;
-    std::unique_ptr<OGRCoordinateTransformation> _transformation;
-};
 
 /// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
 /// it, its border blended with them, and 0 m where none has.
@@ -87,12 +63,7 @@ private:
     /// What the coarser layers have, as heights of this one.
     [[nodiscard]] FoundHeight below(std::size_t source, const PositionDeg& position);
 
-    /// As DemSource::addRange(), above the ellipsoid.
-    [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, Interval& range);
-
     std::vector<std::unique_ptr<DemSource>> _sources;
-    /// One for each source.
-    std::vector<VerticalShift> _shifts;
 };
 
 }  // namespace osgbindem

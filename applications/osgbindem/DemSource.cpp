@@ -8,12 +8,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 
 namespace {
+
+constexpr const char* kAdvice = "; install the package proj-data, or see --geoid (none takes heights as they are)";
 
 /// The first post of the next block.
 int nextBlock(int place) {
@@ -22,8 +25,70 @@ int nextBlock(int place) {
 
 }  // namespace
 
-DemSource::DemSource(std::unique_ptr<RasterLayer> layer, double mostPosts)
+VerticalShift::VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path) {
+    if (geoid == "none" || (geoid.empty() && vertical.empty())) return;
+    OGRSpatialReference source;
+    if (geoid.empty()) {
+        OGRSpatialReference positions;
+        OGRSpatialReference heights;
+        positions.importFromEPSG(4326);
+        heights.importFromWkt(vertical.c_str());
+        source.SetCompoundCS("positions and heights", &positions, &heights);
+        _what = std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"";
+    } else {
+        const bool isFile = geoid != "egm96";
+        _what = isFile ? "the geoid \"" + geoid + "\"" : "the geoid EGM96";
+        const std::string grid = isFile ? std::filesystem::absolute(geoid).string() : "egm96_15.gtx";
+        const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
+        if (source.importFromProj4(text.c_str()) != OGRERR_NONE) {
+            throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
+        }
+    }
+    OGRSpatialReference target;
+    target.importFromEPSG(4979);
+    source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    OGRCoordinateTransformationOptions options;
+    options.SetBallparkAllowed(false);
+    _transformation.reset(OGRCreateCoordinateTransformation(&source, &target, options));
+    if (!_transformation) throw Failure("PROJ has no grid for " + _what + kAdvice);
+}
+
+double VerticalShift::at(const PositionDeg& position) const {
+    if (!_transformation) return 0.0;
+    double x = std::remainder(position.longitudeDeg, 360.0);
+    double y = position.latitudeDeg;
+    double z = 0.0;
+    if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
+        throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
+                      ", longitude " + std::to_string(position.longitudeDeg) + kAdvice);
+    }
+    return z;
+}
+
+Interval VerticalShift::range(const RectDeg& rect, const RasterGrid& grid) const {
+    if (isNone()) return {0.0, 0.0};
+    // Between these places the geoid differs by no more than its steepest slope allows.
+    constexpr int kPlaces = 16;
+    constexpr double kSteepest = 25.0;  // metres a degree
+    const double margin = kSteepest * std::max(rect.north - rect.south, rect.east - rect.west) / kPlaces;
+    Interval range = Interval::none();
+    for (int row = 0; row <= kPlaces; ++row) {
+        for (int column = 0; column <= kPlaces; ++column) {
+            const PositionDeg position{rect.south + (rect.north - rect.south) * row / kPlaces,
+                                       rect.west + (rect.east - rect.west) * column / kPlaces};
+            if (!grid.locate(position)) continue;
+            const double metres = at(position);
+            range.expandBy(metres - margin);
+            range.expandBy(metres + margin);
+        }
+    }
+    return range;
+}
+
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift, double mostPosts)
     : _layer(std::move(layer)),
+      _shift(std::move(shift)),
       _mostBlocks(static_cast<std::size_t>(std::max(8.0, mostPosts / (VoidFill::kBlock * VoidFill::kBlock)))),
       _voids(*_layer, [this](int column, int row) { return post(column, row); }) {}
 
@@ -90,6 +155,7 @@ std::optional<FoundHeight> DemSource::height(const PositionDeg& position) {
     if (v > 0.0) result.metres = (1.0 - v) * result.metres + v * between(cell->second);
     // Where all posts around are a rival's, the rival itself is asked.
     if (std::isnan(result.metres) || !isOwn) return std::nullopt;
+    result.metres += _shift.at(position);
     return result;
 }
 
@@ -108,6 +174,7 @@ void DemSource::forPosts(const std::vector<PixelWindow>& windows, const Visit& v
 
 bool DemSource::addRange(const RectDeg& rect, Interval& range) {
     bool isComplete = grid().covers(rect);
+    Interval own = Interval::none();
     forPosts(grid().touching(rect), [&](int column, int row) {
         double height = post(column, row);
         if (std::isnan(height)) {
@@ -115,9 +182,13 @@ bool DemSource::addRange(const RectDeg& rect, Interval& range) {
             height = found.metres;
             isComplete = isComplete && !found.isRival && !std::isnan(height);
         }
-        if (!std::isnan(height)) range.expandBy(height);
+        if (!std::isnan(height)) own.expandBy(height);
         return true;
     });
+    const Interval shift = _shift.range(rect, grid());
+    if (own.width() < 0.0 || shift.width() < 0.0) return isComplete;
+    range.expandBy(own.lower + shift.lower);
+    range.expandBy(own.upper + shift.upper);
     return isComplete;
 }
 

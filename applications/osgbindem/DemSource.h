@@ -12,12 +12,40 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace osgbindem {
 
 using osgAnalyticBin::core::Interval;
+
+/// What is added to heights of a raster so that they are above the ellipsoid: the height of the geoid, found by PROJ.
+/// Not for use by several threads: each has its own.
+class VerticalShift final {
+public:
+    /// No shift.
+    VerticalShift() = default;
+    /// `vertical`: the vertical part of the reference system of the raster at `path`, empty when it has none.
+    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what `vertical` says.
+    /// Throws Failure when PROJ has no grid for it.
+    VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path);
+
+    [[nodiscard]] bool isNone() const noexcept { return !_transformation; }
+
+    /// For the user: what heights are above.
+    [[nodiscard]] const std::string& what() const noexcept { return _what; }
+
+    /// Metres. Throws Failure where the grid has none.
+    [[nodiscard]] double at(const PositionDeg& position) const;
+
+    /// Holds those of all positions of the raster within the rectangle.
+    [[nodiscard]] Interval range(const RectDeg& rect, const RasterGrid& grid) const;
+
+private:
+    std::string _what;
+    std::unique_ptr<OGRCoordinateTransformation> _transformation;
+};
 
 /// One layer of elevation rasters. Reads it in blocks at fixed places, and keeps those that were read last.
 /// Not for use by several threads: each has its own.
@@ -27,23 +55,25 @@ public:
     static constexpr double kMostPosts = 3e6;
 
     /// `mostPosts`: to be kept in memory, but never less than a few blocks.
-    explicit DemSource(std::unique_ptr<RasterLayer> layer, double mostPosts = kMostPosts);
+    explicit DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift = {}, double mostPosts = kMostPosts);
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
     [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
+    [[nodiscard]] const VerticalShift& shift() const noexcept { return _shift; }
 
     /// To be told of coarser rasters before the first height is asked for.
     [[nodiscard]] VoidFill& voids() noexcept { return _voids; }
 
-    /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
+    /// Above the ellipsoid at a position, bilinear between posts, voids filled. Returns: nullopt where there is no
+    /// data.
     [[nodiscard]] std::optional<FoundHeight> height(const PositionDeg& position);
 
     /// Whether any post within the rectangle has data.
     [[nodiscard]] bool hasData(const RectDeg& rect);
 
-    /// Adds the heights of all posts that have part in the rectangle, voids filled.
+    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, voids filled.
     /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, Interval& range);
 
@@ -68,6 +98,7 @@ private:
     void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) const;
 
     std::unique_ptr<RasterLayer> _layer;
+    VerticalShift _shift;
     std::size_t _mostBlocks;
     std::map<std::pair<int, int>, Block> _blocks;
     Block* _last = nullptr;
