@@ -13,7 +13,6 @@
 #include <osg/Version>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iterator>

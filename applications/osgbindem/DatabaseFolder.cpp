@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 #include <vector>
 

@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include "Failure.h"
+
+#include <cpl_string.h>
 #include <gdal_priv.h>
+#include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
@@ -22,8 +26,9 @@ namespace osgbindem {
     return text;
 }
 
-/// A reference system as text.
-[[nodiscard]] inline std::string wktOf(const OGRSpatialReference& reference) {
+/// A reference system, or a part of one, as text.
+template <typename Reference>
+[[nodiscard]] std::string wktOf(const Reference& reference) {
     char* text = nullptr;
     reference.exportToWkt(&text);
     std::string result(text);
@@ -44,9 +49,18 @@ namespace osgbindem {
     return path.rfind("/vsi", 0) == 0 || std::filesystem::exists(path, ignored);
 }
 
-struct GdalClose {
-    void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
-};
-using GdalDataset = std::unique_ptr<GDALDataset, GdalClose>;
+using GdalDataset = GDALDatasetUniquePtr;
+
+/// Runs one of GDAL's utilities with the words of its command line. `New`, `Free`: make and delete its options.
+/// `what`: it does, for the message. Throws Failure.
+template <auto New, auto Free, typename Run>
+[[nodiscard]] GdalDataset madeBy(const CPLStringList& words, const std::string& what, const Run& run) {
+    auto* options = New(const_cast<char**>(words.List()), nullptr);
+    int usageError = 0;
+    GdalDataset result(GDALDataset::FromHandle(run(options, &usageError)));
+    Free(options);
+    if (!result) throw osgAnalyticBin::support::Failure("cannot " + what + ": " + gdalMessage());
+    return result;
+}
 
 }  // namespace osgbindem

@@ -5,9 +5,6 @@
 
 #include "Failure.h"
 
-#include <cpl_string.h>
-#include <gdal_utils.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -266,13 +263,11 @@ RasterLook& lookOf(GDALDataset& heights) {
 
 GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
     const auto translated = [&](GDALDataset& source, const std::string& words) {
-        CPLStringList list(CSLTokenizeString(("-of VRT " + words).c_str()));
-        GDALTranslateOptions* options = GDALTranslateOptionsNew(list.List(), nullptr);
-        int usageError = 0;
-        GDALDatasetH result = GDALTranslate("", GDALDataset::ToHandle(&source), options, &usageError);
-        GDALTranslateOptionsFree(options);
-        if (result == nullptr) throw Failure("cannot read the colours of \"" + path + "\": " + gdalMessage());
-        return GDALDataset::FromHandle(result);
+        return madeBy<GDALTranslateOptionsNew, GDALTranslateOptionsFree>(
+            CPLStringList(CSLTokenizeString(("-of VRT " + words).c_str())), "read the colours of \"" + path + "\"",
+            [&](auto* options, int* usageError) {
+                return GDALTranslate("", GDALDataset::ToHandle(&source), options, usageError);
+            });
     };
     const GDALColorInterp meaning = file.GetRasterBand(1)->GetColorInterpretation();
     if (meaning >= GCI_HueBand) {
@@ -280,7 +275,7 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
                       " and others; give an image of red, green and blue");
     }
     GDALDataset* source = &file;
-    if (file.GetRasterBand(1)->GetColorTable() != nullptr) source = translated(file, "-ot Byte -expand rgba");
+    if (file.GetRasterBand(1)->GetColorTable() != nullptr) source = translated(file, "-ot Byte -expand rgba").release();
     std::vector<int> bands = colourBands(*source);
     GDALRasterBand* first = source->GetRasterBand(bands.front());
     // GDAL's masks know alpha bands in the last place only, and not beside nodata.
@@ -299,7 +294,7 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
             parts += CPLSPrintf("-b %d ", band);
             numbers += CPLSPrintf("%.17g ", file.GetRasterBand(band)->GetNoDataValue());
         }
-        source = translated(file, parts + "-mo \"NODATA_VALUES=" + numbers + "\"");
+        source = translated(file, parts + "-mo \"NODATA_VALUES=" + numbers + "\"").release();
         bands = {1, 2, 3};
     }
     for (const int band : bands) colours += CPLSPrintf(" -b %d", band);
@@ -307,7 +302,7 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
     if (alpha > 0 && source->GetRasterBand(alpha)->GetRasterDataType() == GDT_UInt16) {
         colours += " -scale_4 0 65535 0 255";
     }
-    GdalDataset result(translated(*source, colours));
+    GdalDataset result = translated(*source, colours);
     if (source != &file) source->ReleaseRef();  // the result has a reference of its own
     return result;
 }

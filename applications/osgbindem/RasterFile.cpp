@@ -6,9 +6,7 @@
 #include "Failure.h"
 #include "Interruption.h"
 
-#include <cpl_string.h>
 #include <gdal_alg.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,11 +135,7 @@ std::string verticalOf(const OGRSpatialReference& reference) {
     const OGR_SRSNode* vertical = reference.GetAttrNode("VERT_CS");
     if (vertical == nullptr) vertical = reference.GetAttrNode("VERTCRS");
     if (vertical == nullptr || vertical->GetChildCount() == 0) return {};
-    char* text = nullptr;
-    vertical->exportToWkt(&text);
-    std::string result(text);
-    CPLFree(text);
-    return result;
+    return wktOf(*vertical);
 }
 
 /// The raster's own coordinates of places that are spread evenly over it, each followed by those a pixel farther along

@@ -6,8 +6,6 @@
 #include "Angles.h"
 #include "Failure.h"
 
-#include <cpl_string.h>
-#include <gdal_utils.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -87,13 +85,11 @@ GdalDataset mosaicOf(const RasterLayer::Members& members) {
     CPLStringList words(
         CSLTokenizeString(CPLSPrintf("-resolution user -tr %.17g %.17g %s", first.transform()[1], -first.transform()[5],
                                      isElevation(first.dataset()) ? "-srcnodata nan -vrtnodata nan" : "")));
-    GDALBuildVRTOptions* options = GDALBuildVRTOptionsNew(words.List(), nullptr);
-    int usageError = 0;
-    GdalDataset mosaic(GDALDataset::FromHandle(
-        GDALBuildVRT("", static_cast<int>(handles.size()), handles.data(), nullptr, options, &usageError)));
-    GDALBuildVRTOptionsFree(options);
-    if (!mosaic) throw Failure("cannot make a mosaic of \"" + first.path() + "\" and others: " + gdalMessage());
-    return mosaic;
+    return madeBy<GDALBuildVRTOptionsNew, GDALBuildVRTOptionsFree>(
+        words, "make a mosaic of \"" + first.path() + "\" and others", [&](auto* options, int* usageError) {
+            const int count = static_cast<int>(handles.size());
+            return GDALBuildVRT("", count, handles.data(), nullptr, options, usageError);
+        });
 }
 
 GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& frame) {
@@ -110,13 +106,11 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
         isElevation(dataset) ? "-srcnodata nan -dstnodata nan -wo XSCALE=1 -wo YSCALE=1" : "-dstalpha")));
     words.AddString("-t_srs");
     words.AddString(wktOf(file.target()).c_str());
-    GDALWarpAppOptions* options = GDALWarpAppOptionsNew(words.List(), nullptr);
-    GDALDatasetH source = GDALDataset::ToHandle(&dataset);
-    int usageError = 0;
-    GdalDataset result(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, &usageError)));
-    GDALWarpAppOptionsFree(options);
-    if (!result) throw Failure("cannot bring \"" + file.path() + "\" to latitude and longitude: " + gdalMessage());
-    return result;
+    return madeBy<GDALWarpAppOptionsNew, GDALWarpAppOptionsFree>(
+        words, "bring \"" + file.path() + "\" to latitude and longitude", [&](auto* options, int* usageError) {
+            GDALDatasetH source = GDALDataset::ToHandle(&dataset);
+            return GDALWarp("", nullptr, 1, &source, options, usageError);
+        });
 }
 
 /// The part of a raster's grid that another one has.
@@ -139,18 +133,6 @@ double cosine(double latitudeDeg) {
 /// The distance between two intervals, 0 when they meet.
 double gap(double aLow, double aHigh, double bLow, double bHigh) {
     return std::max({0.0, bLow - aHigh, aLow - bHigh});
-}
-
-/// The area of a raster, and its copies a turn to either side; one round the globe has no end in the west and east.
-std::array<RectDeg, 3> areasOf(const RasterGrid& grid) {
-    RectDeg rect = grid.extent();
-    if (grid.isGlobal()) {
-        rect.west -= 720.0;
-        rect.east += 720.0;
-    }
-    return {rect,
-            {rect.west - 360.0, rect.south, rect.east - 360.0, rect.north},
-            {rect.west + 360.0, rect.south, rect.east + 360.0, rect.north}};
 }
 
 using Intervals = std::vector<std::pair<double, double>>;
@@ -208,7 +190,12 @@ void BlendBand::addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& 
         for (const RasterGrid& other : all) {
             const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
             const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());
-            for (const RectDeg& rect : areasOf(other)) {
+            for (const double turn : {-360.0, 0.0, 360.0}) {
+                // One round the globe has no end in the west and east.
+                const double more = other.isGlobal() ? 720.0 : 0.0;
+                RectDeg rect = other.extent();
+                rect.west += turn - more;
+                rect.east += turn + more;
                 const auto [low, high] = across(rect);
                 const double beyond = outward < 0.0 ? border - low : high - border;
                 const double near = outward < 0.0 ? high - border : border - low;

@@ -18,7 +18,6 @@
 #include <optional>
 #include <set>
 #include <thread>
-#include <utility>
 
 namespace osgbindem {
 

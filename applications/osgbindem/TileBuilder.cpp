@@ -13,7 +13,6 @@
 #include <ogr_spatialref.h>
 #include <osg/LightModel>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

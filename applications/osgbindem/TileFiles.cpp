@@ -9,6 +9,7 @@
 #include "ModuleFolder.h"
 #include "TextFile.h"
 
+#include <cpl_string.h>
 #include <osg/Group>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
@@ -29,12 +30,6 @@ namespace {
 
 // A folder holds the files of this many levels and one folder for each tile of the next: 341 files, 1024 folders.
 constexpr int kLevelsPerFolder = 5;
-
-std::string text(const char* format, int a, int b, int c = 0) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, a, b, c);
-    return buffer;
-}
 
 /// The folder, below that of all tiles, with the file of a tile's children.
 std::string folderOf(const TileId& tile) {
@@ -59,7 +54,7 @@ std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcep
 
 std::string startName(const TileId& tile) {
     const TileId start = tile.ancestor(0);
-    return text("X%02d_Y%d", start.x, start.y);
+    return CPLSPrintf("X%02d_Y%d", start.x, start.y);
 }
 
 bool isStartName(const std::string& name) {
@@ -69,7 +64,7 @@ bool isStartName(const std::string& name) {
 }
 
 std::string tileName(const TileId& tile) {
-    return text("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
+    return CPLSPrintf("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
 }
 
 TileFiles::TileFiles(std::string folder, std::string finalName, int startLevel)
