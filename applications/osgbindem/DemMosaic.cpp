@@ -20,9 +20,11 @@ namespace {
 constexpr double kRival = 1.5;
 
 // Half of the memory is GDAL's cache, the other half what the threads keep.
-double postsPerThread(const Settings& settings) {
-    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1);
-    return std::min(bytes / sizeof(double), DemSource::kMostPosts);
+std::size_t blocksPerThread(const Settings& settings) {
+    constexpr double kFewest = 16.0;
+    constexpr double kBytes = sizeof(double) * VoidFill::kBlock * VoidFill::kBlock;
+    const double blocks = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1) / kBytes;
+    return std::min(DemBlocks().most, static_cast<std::size_t>(std::max(kFewest, blocks)));
 }
 
 std::string markText(const RasterLook& look, double posts) {
@@ -34,11 +36,11 @@ std::string markText(const RasterLook& look, double posts) {
 }  // namespace
 
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
-    RasterLayer::Layers layers = RasterLayer::elevationOf(settings, layout);
-    const double mostPosts = postsPerThread(settings) / static_cast<double>(layers.size());
-    for (auto& layer : layers) {
+    const auto blocks = std::make_shared<DemBlocks>();
+    blocks->most = blocksPerThread(settings);
+    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
         VerticalShift shift(layer->vertical(), settings.geoid, layer->path());
-        _sources.push_back(std::make_unique<DemSource>(std::move(layer), std::move(shift), mostPosts));
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer), std::move(shift), blocks));
     }
     for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
         const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace osgbindem {
 
@@ -86,36 +87,39 @@ Interval VerticalShift::range(const RectDeg& rect, const RasterGrid& grid) const
     return range;
 }
 
-DemSource::DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift, double mostPosts)
+DemSource::DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift, std::shared_ptr<DemBlocks> blocks)
     : _layer(std::move(layer)),
       _shift(std::move(shift)),
-      _mostBlocks(static_cast<std::size_t>(std::max(8.0, mostPosts / (VoidFill::kBlock * VoidFill::kBlock)))),
+      _blocks(std::move(blocks)),
       _voids(*_layer, [this](int column, int row) { return post(column, row); }) {}
 
-DemSource::Block& DemSource::blockWith(int column, int row) {
-    if (_last != nullptr && _last->window.contains(column, row)) return *_last;
-    const std::pair place(nextBlock(column) - VoidFill::kBlock, nextBlock(row) - VoidFill::kBlock);
-    auto found = _blocks.find(place);
-    if (found == _blocks.end()) {
+DemBlocks::Block& DemSource::blockWith(int column, int row) {
+    if (_last != nullptr && _age == _blocks->age && _last->window.contains(column, row)) return *_last;
+    const PixelWindow window{nextBlock(column) - VoidFill::kBlock, nextBlock(row) - VoidFill::kBlock,
+                             std::min(nextBlock(column), grid().columns()) - nextBlock(column) + VoidFill::kBlock,
+                             std::min(nextBlock(row), grid().rows()) - nextBlock(row) + VoidFill::kBlock};
+    const std::tuple place(this, window.column, window.row);
+    auto found = _blocks->blocks.find(place);
+    if (found == _blocks->blocks.end()) {
         osgAnalyticBin::support::throwIfStopRequested();
-        _last = nullptr;
-        if (_blocks.size() >= _mostBlocks) _blocks.clear();
-        const int width = std::min(VoidFill::kBlock, grid().columns() - place.first);
-        const int height = std::min(VoidFill::kBlock, grid().rows() - place.second);
-        std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-        const CPLErr error =
-            _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, place.first, place.second, width, height,
-                                                         heights.data(), width, height, GDT_Float64, 0, 0, nullptr);
+        if (_blocks->blocks.size() >= _blocks->most) {
+            _blocks->blocks.clear();
+            ++_blocks->age;
+        }
+        std::vector<double> heights(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
+        const CPLErr error = _layer->dataset().GetRasterBand(1)->RasterIO(
+            GF_Read, window.column, window.row, window.width, window.height, heights.data(), window.width,
+            window.height, GDT_Float64, 0, 0, nullptr);
         if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
-        const PixelWindow window{place.first, place.second, width, height};
-        found = _blocks.emplace(place, Block{window, std::move(heights), {}}).first;
+        found = _blocks->blocks.emplace(place, DemBlocks::Block{window, std::move(heights), {}}).first;
     }
     _last = &found->second;
+    _age = _blocks->age;
     return *_last;
 }
 
 double DemSource::post(int column, int row) {
-    const Block& block = blockWith(column, row);
+    const DemBlocks::Block& block = blockWith(column, row);
     return block.heights[block.place(column, row)];
 }
 
@@ -125,7 +129,7 @@ FoundHeight DemSource::filled(int column, int row) {
         VoidFill::Block fill = _voids.filled(PixelWindow(blockWith(column, row).window));
         blockWith(column, row).fill = std::move(fill);
     }
-    const Block& block = *_last;
+    const DemBlocks::Block& block = blockWith(column, row);
     return block.fill->at(block.place(column, row));
 }
 
@@ -160,23 +164,30 @@ std::optional<FoundHeight> DemSource::height(const PositionDeg& position) {
 }
 
 template <typename Visit>
-void DemSource::forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) const {
+void DemSource::forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) {
     for (const PixelWindow& window : windows) {
         const int east = window.column + window.width;
         const int south = window.row + window.height;
-        for (int row = window.row; row < south; row = nextBlock(row))
-            for (int column = window.column; column < east; column = nextBlock(column))
-                for (int v = row; v < std::min(south, nextBlock(row)); ++v)
-                    for (int u = column; u < std::min(east, nextBlock(column)); ++u)
-                        if (!visit(u, v)) return;
+        for (int row = window.row; row < south; row = nextBlock(row)) {
+            for (int column = window.column; column < east; column = nextBlock(column)) {
+                const DemBlocks::Block* block = &blockWith(column, row);
+                std::size_t age = _blocks->age;
+                for (int v = row; v < std::min(south, nextBlock(row)); ++v) {
+                    for (int u = column; u < std::min(east, nextBlock(column)); ++u) {
+                        if (age != _blocks->age) block = &blockWith(column, row);
+                        age = _blocks->age;
+                        if (!visit(u, v, block->heights[block->place(u, v)])) return;
+                    }
+                }
+            }
+        }
     }
 }
 
 bool DemSource::addRange(const RectDeg& rect, Interval& range) {
     bool isComplete = grid().covers(rect);
     Interval own = Interval::none();
-    forPosts(grid().touching(rect), [&](int column, int row) {
-        double height = post(column, row);
+    forPosts(grid().touching(rect), [&](int column, int row, double height) {
         if (std::isnan(height)) {
             const FoundHeight found = filled(column, row);
             height = found.metres;
@@ -194,8 +205,8 @@ bool DemSource::addRange(const RectDeg& rect, Interval& range) {
 
 bool DemSource::hasData(const RectDeg& rect) {
     bool isFound = false;
-    forPosts(grid().inside(rect), [&](int column, int row) {
-        isFound = !std::isnan(post(column, row));
+    forPosts(grid().inside(rect), [&](int, int, double height) {
+        isFound = !std::isnan(height);
         return !isFound;
     });
     return isFound;

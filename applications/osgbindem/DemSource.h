@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace osgbindem {
@@ -47,15 +47,37 @@ private:
     std::unique_ptr<OGRCoordinateTransformation> _transformation;
 };
 
-/// One layer of elevation rasters. Reads it in blocks at fixed places, and keeps those that were read last.
-/// Not for use by several threads: each has its own.
+class DemSource;
+
+/// Blocks of elevation at fixed places, of one layer or of several, as they were read last; once there are too many,
+/// all are forgotten. Not for use by several threads: each has its own.
+struct DemBlocks {
+    struct Block {
+        [[nodiscard]] std::size_t place(int column, int row) const noexcept {
+            return static_cast<std::size_t>((row - window.row) * window.width + column - window.column);
+        }
+
+        PixelWindow window;
+        /// NaN where they are missing.
+        std::vector<double> heights;
+        /// Where one of those was asked for.
+        std::optional<VoidFill::Block> fill;
+    };
+
+    /// More save no time.
+    std::size_t most = 45;
+    /// By layer, first column and first row.
+    std::map<std::tuple<const DemSource*, int, int>, Block> blocks;
+    /// How often they were forgotten.
+    std::size_t age = 0;
+};
+
+/// One layer of elevation rasters. Not for use by several threads: each has its own.
 class DemSource final {
 public:
-    /// More posts than this in memory save no time.
-    static constexpr double kMostPosts = 3e6;
-
-    /// `mostPosts`: to be kept in memory, but never less than a few blocks.
-    explicit DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift = {}, double mostPosts = kMostPosts);
+    /// `blocks`: what is kept in memory of all layers.
+    explicit DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift = {},
+                       std::shared_ptr<DemBlocks> blocks = std::make_shared<DemBlocks>());
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
@@ -78,30 +100,18 @@ public:
     bool addRange(const RectDeg& rect, Interval& range);
 
 private:
-    struct Block {
-        [[nodiscard]] std::size_t place(int column, int row) const noexcept {
-            return static_cast<std::size_t>((row - window.row) * window.width + column - window.column);
-        }
-
-        PixelWindow window;
-        /// NaN where they are missing.
-        std::vector<double> heights;
-        /// Where one of those was asked for.
-        std::optional<VoidFill::Block> fill;
-    };
-
-    [[nodiscard]] Block& blockWith(int column, int row);
+    [[nodiscard]] DemBlocks::Block& blockWith(int column, int row);
     [[nodiscard]] double post(int column, int row);
     [[nodiscard]] FoundHeight filled(int column, int row);
-    /// Calls `visit(column, row)` for each post, block by block, as long as it returns true.
+    /// Calls `visit(column, row, height)` for each post, block by block, as long as it returns true.
     template <typename Visit>
-    void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) const;
+    void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit);
 
     std::unique_ptr<RasterLayer> _layer;
     VerticalShift _shift;
-    std::size_t _mostBlocks;
-    std::map<std::pair<int, int>, Block> _blocks;
-    Block* _last = nullptr;
+    std::shared_ptr<DemBlocks> _blocks;
+    DemBlocks::Block* _last = nullptr;
+    std::size_t _age = 0;
     VoidFill _voids;
 };
 
