@@ -135,10 +135,8 @@ double DemMosaic::finestGlobalDeg() const noexcept {
 double DemMosaic::posts(const RectDeg& rect) const noexcept {
     double sum = 0.0;
     for (const auto& source : _sources) {
-        for (const RasterLayer::Member& member : source->layer().members()) {
-            const double resolution = member.grid.resolutionDeg();
-            sum += member.grid.overlap(rect) / resolution / resolution;  // whose square may be too small for a number
-        }
+        const double resolution = source->grid().resolutionDeg();
+        sum += source->layer().overlap(rect) / resolution / resolution;  // whose square may be too small for a number
     }
     return sum;
 }

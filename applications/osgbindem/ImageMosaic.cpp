@@ -44,22 +44,11 @@ public:
     [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
 
-    /// Whether an image of the layer has a part in the rectangle.
-    [[nodiscard]] bool overlaps(const RectDeg& rect) const noexcept {
-        const auto& members = _layer->members();
-        return std::any_of(members.begin(), members.end(),
-                           [&](const RasterLayer::Member& member) { return member.grid.overlap(rect) > 0.0; });
-    }
-
     /// Whether the images of the layer cover it.
     [[nodiscard]] bool covers(const RectDeg& rect) const noexcept {
-        double sum = 0.0;
-        for (const RasterLayer::Member& member : _layer->members()) {
-            if (member.grid.covers(rect)) return true;
-            sum += member.grid.overlap(rect);
-        }
         constexpr double kRounding = 1e-6;
-        return grid().covers(rect) && sum >= (1.0 - kRounding) * (rect.east - rect.west) * (rect.north - rect.south);
+        const double area = (rect.east - rect.west) * (rect.north - rect.south);
+        return grid().covers(rect) && _layer->overlap(rect) >= (1.0 - kRounding) * area;
     }
 
     /// Reads the part that touches the rectangle, reduced to so many pixels along a side at most, in place of the one
@@ -184,7 +173,7 @@ int ImageMosaic::textureSize(const TileId& tile, int cells) const noexcept {
     const ImageSource* finest = nullptr;
     bool isCovered = false;
     for (const auto& layer : _layers) {
-        if (!finest && layer->overlaps(rect)) finest = layer.get();
+        if (!finest && layer->layer().overlap(rect) > 0.0) finest = layer.get();
         isCovered = isCovered || layer->covers(rect);
     }
     if (!finest) return 0;

@@ -320,6 +320,12 @@ RasterLayer::Layers RasterLayer::imagesOf(const Settings& settings) {
     return layersOf(settings, images, false, 0.0, std::nullopt);
 }
 
+double RasterLayer::overlap(const RectDeg& rect) const noexcept {
+    double sum = 0.0;
+    for (const Member& member : _members) sum += member.grid.overlap(rect);
+    return sum;
+}
+
 double RasterLayer::share(const PositionDeg& position) const noexcept {
     double share = 1.0;
     for (const Member& member : _members) share = std::min(share, member.band.share(position));

@@ -89,6 +89,9 @@ public:
     /// The distance between posts of the finest raster.
     [[nodiscard]] double spacingDeg() const noexcept { return _spacingDeg; }
 
+    /// The sum of the areas in square degrees that the layer's rasters have in common with the rectangle.
+    [[nodiscard]] double overlap(const RectDeg& rect) const noexcept;
+
     /// The layer's share of heights or colours, less than 1 in the bands at its rasters' borders; and whether a band
     /// may reach into the rectangle.
     [[nodiscard]] double share(const PositionDeg& position) const noexcept;

@@ -185,31 +185,28 @@ private:
     /// `distances`: posts to the nearest one with data.
     void sortVoids(const std::vector<float>& distances) {
         std::vector<bool> isSeen(_kinds.size(), false);
-        forPosts(_posts, [&](int x, int y, std::size_t i) {
-            if (isVoid(i) && !isSeen[i]) sortVoid(x, y, isSeen, distances);
+        forPosts(_posts, [&](int startX, int startY, std::size_t start) {
+            constexpr std::size_t kMostAtBorder = 4;  // one post of so many
+            if (!isVoid(start) || isSeen[start]) return;
+            std::vector<std::pair<int, int>> found{{startX, startY}};
+            isSeen[start] = true;
+            bool isNarrow = true;
+            std::size_t atBorder = 0;
+            for (std::size_t next = 0; next < found.size(); ++next) {
+                const auto [x, y] = found[next];
+                isNarrow = isNarrow && distances[index(x, y)] <= 0.5F * kNarrow;
+                const bool isAtBorder = hasNear(x, y, [&](int u, int v, std::size_t i) {
+                    if (isVoid(i) && !isSeen[i]) {
+                        isSeen[i] = true;
+                        found.emplace_back(u, v);
+                    }
+                    return _kinds[i] == Kind::Outside;
+                });
+                if (isAtBorder) ++atBorder;
+            }
+            if (isNarrow && kMostAtBorder * atBorder <= found.size()) return;
+            for (const auto& [x, y] : found) _kinds[index(x, y)] = Kind::Wide;
         });
-    }
-
-    void sortVoid(int startX, int startY, std::vector<bool>& isSeen, const std::vector<float>& distances) {
-        constexpr std::size_t kMostAtBorder = 4;  // one post of so many
-        std::vector<std::pair<int, int>> found{{startX, startY}};
-        isSeen[index(startX, startY)] = true;
-        bool isNarrow = true;
-        std::size_t atBorder = 0;
-        for (std::size_t next = 0; next < found.size(); ++next) {
-            const auto [x, y] = found[next];
-            isNarrow = isNarrow && distances[index(x, y)] <= 0.5F * kNarrow;
-            const bool isAtBorder = hasNear(x, y, [&](int u, int v, std::size_t i) {
-                if (isVoid(i) && !isSeen[i]) {
-                    isSeen[i] = true;
-                    found.emplace_back(u, v);
-                }
-                return _kinds[i] == Kind::Outside;
-            });
-            if (isAtBorder) ++atBorder;
-        }
-        if (isNarrow && kMostAtBorder * atBorder <= found.size()) return;
-        for (const auto& [x, y] : found) _kinds[index(x, y)] = Kind::Wide;
     }
 
     /// The heights with narrow voids interpolated.
