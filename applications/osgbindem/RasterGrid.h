@@ -44,13 +44,8 @@ struct PixelWindow {
     int width = 0;
     int height = 0;
 
-    [[nodiscard]] double area() const noexcept { return static_cast<double>(width) * height; }
     [[nodiscard]] bool contains(int c, int r) const noexcept {
         return c >= column && c < column + width && r >= row && r < row + height;
-    }
-    [[nodiscard]] bool contains(const PixelWindow& other) const noexcept {
-        return contains(other.column, other.row) &&
-               contains(other.column + other.width - 1, other.row + other.height - 1);
     }
 };
 
