@@ -424,6 +424,8 @@ FAULTS = [
           "_along.met({latitude - reach.aside, latitude + reach.aside})", "_along.met({latitude, latitude})", CORE, "GroundPlates.*"),
     Fault("occlusion: triangles do not sag", "src/core/occlusion/PlateCells.h",
           "sag = horizontal2 / (6.0 * radius);", "sag = 0.0 * horizontal2 / (6.0 * radius);", CORE, "GroundPlates.*"),
+    Fault("occlusion: is looked for from any height", "src/kit/database/DatabaseCallbacks.cpp",
+          "kReliefs = 8.0", "kReliefs = 1e9", NODE, "TerrainOcclusion.*"),
     Fault("near plane: only tiles in view as a whole are surely drawn", "src/kit/cull/FamilyTile.cpp",
           "if (!isBesideFrustum(visitor, box, frame, undecided)) farthest.drawn",
           "if (undecided == 0) farthest.drawn", SCENES, NAMED),

@@ -182,6 +182,25 @@ TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
     for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
 }
 
+// Nor are tiles prepared for it, which takes as long as reading them.
+TEST(TerrainOcclusion, IsNotLookedForFromHighAboveIfLeftToItself) {
+    RidgeGlobe globe;
+    CullOptions options;
+    options.occlusion = OcclusionUse::Auto;
+    installBins(*globe.root, options);
+    const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 5e6), ecefDeg(0.1, 50.0, 0.0), {1, 0, 0}, 30.0);
+    (void)globe.drawsFarTile(high);
+    EXPECT_STREQ(BinStatistics::of(*globe.visitor).notCovered(), "an eye that is not high above the terrain");
+    for (int i = 0; i < 300; ++i) {
+        (void)globe.drawsFarTile(high);
+        update(*globe.root);
+    }
+    for (int i = 0; i < 300; ++i) EXPECT_TRUE(globe.drawsFarTile()) << i;
+    int awaited = 0;
+    for (; awaited < 300 && globe.drawsFarTile(); ++awaited) update(*globe.root);
+    EXPECT_LT(awaited, 300);
+}
+
 // Other distances, and depth buffers: tests/scenes/ridge-near-planes.scene, ridge-coarse-depths.scene.
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     RidgeGlobe globe;

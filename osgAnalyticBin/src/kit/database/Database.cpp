@@ -210,16 +210,15 @@ std::optional<core::CoveredRegion> Database::region() const {
 }
 
 void Database::askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
-    report(Finding::PlatesWanted);
     if (!tile.getInstalledTile()->askForPlates()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _awaitPlates.emplace_back(&tile, &mesh);
     requestUpdate();
 }
 
-// Some at a time: each takes up to some milliseconds.
+// Few at a time: each takes up to some milliseconds.
 void Database::makePlates() {
-    constexpr std::size_t kMostTiles = 8;
+    constexpr std::size_t kMostTiles = 4;
     for (std::size_t i = 0; i < kMostTiles; ++i) {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::ref_ptr<osg::Node> mesh;

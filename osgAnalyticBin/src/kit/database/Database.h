@@ -131,9 +131,14 @@ public:
     /// Returns: nullopt if it covers the globe or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Has one of the next updates give the tile plates. Tiles that are read from now on get theirs while they are
-    /// read. `mesh`: the tile's own mesh.
+    /// Has one of the next updates give the tile plates. `mesh`: the tile's own mesh.
     void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
+    /// @{
+    /// Whether tiles that are read from now on get their plates while they are read, as the last camera that looked for
+    /// hidden tiles said.
+    void wantPlates(bool areWanted) { _arePlatesWanted.store(areWanted, std::memory_order_relaxed); }
+    [[nodiscard]] bool arePlatesWanted() const { return _arePlatesWanted.load(std::memory_order_relaxed); }
+    /// @}
 
     /// Has the next update expand a tile's bin by what was found below it. The tile stays visible until then.
     void widen(InstalledTile& tile, const Widening& by);
@@ -183,6 +188,7 @@ private:
     bool _isCulling = false;
     std::atomic<bool> _wasCulled{false};
     std::atomic<unsigned int> _arrivals{0};
+    std::atomic<bool> _arePlatesWanted{false};
     std::atomic<unsigned int> _found{0};  // a bit for each Finding
     mutable std::mutex _mutex;            // guards the members below
     CullOptions _options;

@@ -130,6 +130,7 @@ constexpr const char* kPerspective = "a perspective camera with a depth buffer o
 constexpr const char* kEyeOver = "an eye over the database";
 constexpr const char* kPlanes = "near and far planes that OSG computes by bounding volumes, or that are set";
 constexpr const char* kDrawn = "near and far planes that are set, or a tile that is surely drawn";
+constexpr const char* kNotHigh = "an eye that is not high above the terrain";
 constexpr const char* kDepths =
     "near and far planes that are set, or nothing but plain nodes and the tiles in the scene";
 
@@ -160,13 +161,31 @@ void reportUnknownNearPlane(Database& database, const osg::Node* unknown) {
     database.report(Finding::UnknownNearPlane, reason);
 }
 
+// Whether the eye is so high above the terrain, in reliefs of what is shown, that it hides little of it.
+bool isHighAbove(const DatabaseView& view, const glm::dvec3& eye) {
+    constexpr double kReliefs = 8.0;
+    core::Interval altitudes = core::Interval::none();
+    for (const ShownTile& shown : view.selection->shown()) {
+        altitudes.expandBy(shown.tile->getBinLow());
+        altitudes.expandBy(shown.tile->getBinHigh());
+    }
+    return view.ellipsoid.toGeodetic(eye).altitude - altitudes.lower > kReliefs * altitudes.width();
+}
+
 // Marks what terrain hides in the selection. Returns: the hider if it knows what is covered.
 osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Database& database, const Viewpoint& viewpoint,
-                                               CullTraversal::LastView& last) {
+                                               OcclusionUse use, CullTraversal::LastView& last) {
     if (!last.hider) last.hider = makeTerrainHider();
     if (!last.hider) return nullptr;
     osg::NodeVisitor& visitor = view.visitor;
     TileSelection& selection = *view.selection;
+    const bool isWorthIt = use == OcclusionUse::On || !isHighAbove(view, *viewpoint.eye());
+    database.wantPlates(isWorthIt);
+    if (!isWorthIt) {
+        view.traversal.statistics().setNotCovered(kNotHigh, visitor.getTraversalNumber());
+        noteHidden({}, last);
+        return nullptr;
+    }
     std::optional<ComputedNear> computed;
     if (!isFinalProjection(view.cullStack)) {
         const osg::Node* unknown = nullptr;
@@ -308,7 +327,7 @@ Horizon horizonOver(DatabaseView& view, Database& database, const CullOptions& o
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(view, *viewpoint));
     osg::ref_ptr<TerrainHider> hider;
-    if (isSelected && findsOccluded) hider = selectBehindTerrain(view, database, *viewpoint, last);
+    if (isSelected && findsOccluded) hider = selectBehindTerrain(view, database, *viewpoint, options.occlusion, last);
     // a hole leaves nothing to pay for
     if (!isSelected && findsOccluded) {
         noteHidden({}, last);

@@ -28,8 +28,6 @@ enum class Finding {
     EyeBesideRegion,
     /// A tile that pages finer ones would take its bin from an index.
     IndexWanted,
-    /// A camera uses occlusion: tiles that are read from now on get their plates while they are read.
-    PlatesWanted,
 
     // Findings of a tile that concern the bins of the tiles above it:
     /// The tile is not as the index knows it.

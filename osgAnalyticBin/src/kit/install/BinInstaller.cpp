@@ -429,8 +429,7 @@ private:
         placeCallback(tile, culled, *callback, *installed);
         if (fit.isDeclared) installed->doubt(InstalledTile::Declared);
         const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
-        const bool withPlates =
-            !canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted);
+        const bool withPlates = !canWait || _options.occlusion == OcclusionUse::On || database().arePlatesWanted();
         ++_installed;
         noteDrawn(tile, *installed);
         noteGround(tile, {tile.meshes, ellipsoid, tile.frame.localToEcef, shape}, withPlates,
