@@ -154,7 +154,6 @@ void readRaster(const osgbindem::Settings& settings) {
             const osgbindem::RectDeg rect{longitude, latitude, longitude + 22.5, latitude + 22.5};
             require(mosaic.posts(rect) >= 0.0);
             (void)mosaic.hasFinerData(rect, 0.1);
-            mosaic.prefetch(rect);
             require(std::isfinite(mosaic.height({latitude + 5.1, longitude + 7.3})));
             const osgAnalyticBin::core::Interval range = mosaic.range(rect);
             require(std::isfinite(range.width()) && range.width() >= 0.0);
