@@ -75,7 +75,7 @@ struct DemBlocks {
 /// One layer of elevation rasters. Not for use by several threads: each has its own.
 class DemSource final {
 public:
-    /// `blocks`: what is kept in memory of all layers.
+    /// `blocks`: the memory that it shares with other layers.
     explicit DemSource(std::unique_ptr<RasterLayer> layer, VerticalShift shift = {},
                        std::shared_ptr<DemBlocks> blocks = std::make_shared<DemBlocks>());
     DemSource(const DemSource&) = delete;

@@ -52,7 +52,7 @@ template <typename Reference>
 using GdalDataset = GDALDatasetUniquePtr;
 
 /// Runs one of GDAL's utilities with the words of its command line. `New`, `Free`: make and delete its options.
-/// `what`: it does, for the message. Throws Failure.
+/// `what`: what it is run for, as in "cannot warp the raster". Throws Failure with that message.
 template <auto New, auto Free, typename Run>
 [[nodiscard]] GdalDataset madeBy(const CPLStringList& words, const std::string& what, const Run& run) {
     auto* options = New(const_cast<char**>(words.List()), nullptr);

@@ -23,8 +23,8 @@ using GeoTransform = std::array<double, 6>;
 /// any way; colours are bands of bytes, red, green, blue and alpha.
 class RasterFile final {
 public:
-    /// `isElevation`: not colours. `spacingDeg`: no finer posts are needed, and the coarsest overview that is as fine
-    /// counts as the raster; 0 for none. Throws Failure.
+    /// `isElevation`: false for colours. `spacingDeg`: the coarsest overview whose posts are no farther apart is read
+    /// in place of the raster; 0 for none. Throws Failure.
     RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg);
 
     [[nodiscard]] const DemInput& input() const noexcept { return _input; }

@@ -96,7 +96,7 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 };
 
-/// Says what OSG says without it, or that the node is elsewhere, or small, or nothing at all.
+/// Computes the bound that OSG computes without it, or a wrong one, or none: see Kind.
 class OwnBound : public Cloned<OwnBound, osg::Node::ComputeBoundingSphereCallback> {
 public:
     enum Kind { Right, Elsewhere, Small, Unknown };
@@ -111,7 +111,7 @@ private:
     Kind _kind;
 };
 
-/// Says what OSG says without it.
+/// Computes the box that OSG computes without it.
 class OwnBox : public Cloned<OwnBox, osg::Drawable::ComputeBoundingBoxCallback> {
 public:
     [[nodiscard]] osg::BoundingBox computeBound(const osg::Drawable& drawable) const override {

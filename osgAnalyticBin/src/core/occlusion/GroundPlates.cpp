@@ -93,7 +93,7 @@ private:
         }
     }
 
-    // Of all triangles. Altitudes differ by a side's vertical part but for L²/2R.
+    // Of all triangles. The altitudes of a side's ends differ by its vertical part, but for L²/2R.
     [[nodiscard]] TriangleSides longestSides(double radius) const {
         double longest2 = 0.0, horizontal2 = 0.0, rise = 0.0;
         for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
@@ -196,6 +196,7 @@ double GroundPlates::narrowest() const noexcept {
 
 // Rounds lower bounds down to 16 bits, and upper bounds up. Minus infinity: not known.
 void GroundPlates::encode(const PlateBounds& found, double margin) noexcept {
+    static_assert(kPlateCells == kNumbers);
     const auto& [low, high] = found;
     // more than the error of altitudes
     const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());

@@ -47,7 +47,7 @@ inline constexpr double kBorder = kReachOfRim * kRim / static_cast<double>(kCell
     return firstNumber(cells) + row * cells + column;
 }
 
-/// Of all grids together.
+/// The cells of all grids together.
 inline constexpr std::size_t kPlateCells = firstNumber(2 * kCellsOfGrids.back());
 
 /// The strips of parts along one axis.
@@ -85,7 +85,8 @@ public:
     explicit CellsAlong(const Interval& extents) : _lower(extents.lower), _perWidth(1.0 / extents.width()) {}
 
     /// A cell counts where what is farther within its edges than kReachOfRim is met, a part where what comes nearer
-    /// than kRoomOfPart is. The outer parts have no outer border. What is met by something is what is met by its ends.
+    /// than kRoomOfPart is. The outer parts have no outer border. An interval meets what its ends meet, and all
+    /// between.
     [[nodiscard]] MetCells met(const Interval& between) const {
         const double from = (between.lower - _lower) * _perWidth, to = (between.upper - _lower) * _perWidth;
         MetCells met;

@@ -161,7 +161,7 @@ void reportUnknownNearPlane(Database& database, const osg::Node* unknown) {
     database.report(Finding::UnknownNearPlane, reason);
 }
 
-// Whether the eye is so high above the terrain, in reliefs of what is shown, that it hides little of it.
+// Whether the eye is so high above the terrain, compared with the relief of what is shown, that terrain hides little.
 bool isHighAbove(const DatabaseView& view, const glm::dvec3& eye) {
     constexpr double kReliefs = 8.0;
     core::Interval altitudes = core::Interval::none();

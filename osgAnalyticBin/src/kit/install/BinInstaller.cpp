@@ -440,7 +440,7 @@ private:
 
     // A tile that the application has added to a database with gaps, where the horizon is not given, hides nothing: its
     // mesh is not looked at so closely.
-    // `known`: what it is taken to cover in any case.
+    // `known`: what the tile is taken to cover whatever its mesh is.
     void noteGround(const FoundTile& tile, const TileMeshes& meshes, bool withPlates,
                     const std::optional<core::MeshCover>& known, InstalledTile& installed) {
         const bool isBelowNone = _isReading && !_parent;

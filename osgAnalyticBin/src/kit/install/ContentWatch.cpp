@@ -185,7 +185,8 @@ public:
         _toHere = _toHere * matrix;
     }
 
-    // Returns: whether the tile's bin holds all of the sphere, or is of no use, so that the content may turn in it.
+    // Returns: whether the content may turn within its sphere without leaving the tile's bin; true also where the bin
+    // culls nothing.
     bool fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
         if (!tile || !callback.getBin().valid()) return true;
