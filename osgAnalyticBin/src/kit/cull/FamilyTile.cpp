@@ -380,6 +380,15 @@ bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
     return _isOwnMesh || (_parts.front().kind == Kind::Terrain && isPassive(*_parts.front().node, visitor));
 }
 
+void FamilyTile::noteMesh(Footprint::Notes& notes) const {
+    for (std::size_t i = 0; i < _count; ++i) {
+        const osg::Node& node = *_parts[i].node;
+        notes.add(&node, sizeof(osg::MatrixTransform));
+        if (_parts[i].kind == Kind::Group || _parts[i].kind == Kind::Transform)
+            notes.addChildren(static_cast<const osg::Group&>(node));
+    }
+}
+
 bool FamilyTile::isMeshAsKnown(const osg::NodeVisitor& visitor, const osg::CullSettings& settings) const {
     for (std::size_t i = 0; i < _count; ++i) {
         const Part& known = _parts[i];

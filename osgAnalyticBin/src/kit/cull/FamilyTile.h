@@ -85,13 +85,15 @@ public:
     [[nodiscard]] bool isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
                                     const StateRules& rules) const;
 
-    /// The memory that was read when the walk last went through the tile to a finer level.
-    [[nodiscard]] const Footprint& wayThrough() const { return _wayThrough; }
-    /// Prefetches what drawing the mesh reads.
-    void prefetchMesh() const {
-        constexpr unsigned int kLines = 4;
-        for (std::size_t i = 0; part(i); ++i) prefetchNode(*part(i), kLines);
+    /// Prefetches the tile, a node without levels of detail too, and what the walk read when it last came there.
+    void fetch(const osg::Node& tile) const {
+        constexpr std::uintptr_t kLines = 6;
+        prefetchLines(reinterpret_cast<std::uintptr_t>(&tile), kLines);
+        _footprint.fetch();
     }
+    [[nodiscard]] const Footprint& footprint() const { return _footprint; }
+    /// Notes what is read of the mesh where it is drawn.
+    void noteMesh(Footprint::Notes& notes) const;
 
 private:
     enum class Kind : unsigned char { Unknown, Group, Transform, Geometry, Terrain };
@@ -132,7 +134,7 @@ private:
     unsigned char _count = 0;       // of parts
     std::array<Part, kMostParts> _parts;
     BoundedMesh _bounded;
-    Footprint _wayThrough;
+    Footprint _footprint;
 };
 
 }  // namespace osgAnalyticBin

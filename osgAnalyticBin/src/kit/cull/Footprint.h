@@ -5,6 +5,9 @@
 
 #include "Prefetch.h"
 
+#include <osg/Group>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -12,11 +15,11 @@
 
 namespace osgAnalyticBin {
 
-/// Where the memory lies that a walk read when it last went through a tile to a finer level. These nodes and numbers
-/// refer to each other; fetched together for several siblings, they are in the processor's caches when they are needed.
-/// Threads: everything at any time.
+/// Where the memory lies that a walk read when it last came to a tile, besides the tile itself: the way to the family
+/// of the finer level, or the mesh. These nodes and numbers refer to each other; fetched together for several siblings,
+/// they are in the processor's caches when they are needed. Threads: everything at any time.
 class Footprint {
-    static constexpr std::size_t kRuns = 7;
+    static constexpr std::size_t kRuns = 13;
 
 public:
     Footprint() = default;
@@ -32,7 +35,7 @@ public:
         }
     }
 
-    /// Notes what is read on the way into one tile. What is noted already is not written again.
+    /// Notes what is read of one tile. What is noted already is not written again.
     class Notes {
     public:
         explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
@@ -42,12 +45,24 @@ public:
         Notes(const Notes&) = delete;
         Notes& operator=(const Notes&) = delete;
 
-        /// Requires: fewer lines than a cache line has bytes.
-        void add(const void* begin, unsigned int lines) {
-            if (_next < kRuns) note((reinterpret_cast<std::uintptr_t>(begin) & ~(kCacheLine - 1)) | lines);
+        /// Of large runs the beginning counts.
+        void add(const void* begin, std::size_t bytes) {
+            constexpr std::uintptr_t kMostLines = 24;
+            const auto first = reinterpret_cast<std::uintptr_t>(begin) / kCacheLine;
+            const std::uintptr_t lines = (reinterpret_cast<std::uintptr_t>(begin) + bytes - 1) / kCacheLine - first + 1;
+            if (_next < kRuns && bytes > 0) note(first * kCacheLine + std::min(lines, kMostLines));
+        }
+        /// What tells a group's children apart from others.
+        void addChildren(const osg::Group& group) {
+            const osg::NodeList& children = OpenGroup::childrenOf(group);
+            add(children.data(), children.size() * sizeof children[0]);
         }
 
     private:
+        struct OpenGroup : public osg::Group {
+            static const osg::NodeList& childrenOf(const osg::Group& group) { return group.*(&OpenGroup::_children); }
+        };
+
         void note(std::uintptr_t run) {
             std::atomic<std::uintptr_t>& noted = _runs[_next++];
             if (noted.load(std::memory_order_relaxed) != run) noted.store(run, std::memory_order_relaxed);

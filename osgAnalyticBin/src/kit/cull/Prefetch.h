@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osg/Node>
-
 #include <cstdint>
 
 namespace osgAnalyticBin {
@@ -20,13 +18,6 @@ inline void prefetchLines([[maybe_unused]] std::uintptr_t address, [[maybe_unuse
         __asm__ volatile("" : : "r"(address));
     }
 #endif
-}
-
-/// Prefetches what a traversal reads of a node: its masks, callbacks and state, and `lines` cache lines from there on.
-inline void prefetchNode(const osg::Node& node, unsigned int lines) {
-    // parents and the bound come before
-    constexpr std::uintptr_t kFirst = 2 * kCacheLine;
-    prefetchLines(reinterpret_cast<std::uintptr_t>(&node) + kFirst, lines);
 }
 
 }  // namespace osgAnalyticBin

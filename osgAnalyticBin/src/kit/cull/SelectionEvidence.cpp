@@ -187,14 +187,10 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
 }
 
 bool SelectionWalk::areMeshesDrawn() const {
-    constexpr std::size_t kAhead = 8;
     const std::vector<ShownTile>& shown = _selection.shown();
-    for (std::size_t i = 0; i < shown.size() && !_search.isEager; ++i) {
-        const FamilyTile* const next = i + kAhead < shown.size() ? shown[i + kAhead].member : nullptr;
-        if (next) next->prefetchMesh();
-        if (!isDrawnWhole(*shown[i].mesh, *shown[i].tile, shown[i].member)) return false;
-    }
-    return true;
+    return _search.isEager || std::all_of(shown.begin(), shown.end(), [this](const ShownTile& tile) {
+               return isDrawnWhole(*tile.mesh, *tile.tile, tile.member);
+           });
 }
 
 // In ECEF.

@@ -129,11 +129,8 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
         isChanged = isChanged || verdicts.lacksTiles;
         siblings.kept = _keeps ? keptOf(family, first, verdicts) : 0;
         if (first < family.size()) describe(siblings, family.block().partFrom(first));
-        constexpr unsigned int kLinesOfTile = 5;
-        forEachBit(siblings.kept, [&](unsigned int number) {
-            prefetchNode(family.node(first + number), kLinesOfTile);
-            family.tile(first + number).wayThrough().fetch();
-        });
+        forEachBit(siblings.kept,
+                   [&](unsigned int number) { family.tile(first + number).fetch(family.node(first + number)); });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         const std::uint64_t passedOver = verdicts.members & ~(siblings.kept | siblings.searched);
         forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
@@ -247,6 +244,10 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
+    if (way == Way::Mesh) {
+        Footprint::Notes notes(member.footprint());
+        member.noteMesh(notes);
+    }
     const bool waits = _view.fileEye && block.isHidden(slot, *_view.fileEye);
     tile.kept = keep(node, &member, isDirect ? way : Way::Tile, waits);
     tile.isEnteredByOsg = tile.isEnteredByOsg || member.paged();
@@ -280,11 +281,16 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     osg::Node& level = *node.getChild(*shown);
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
+    Footprint::Notes notes(tile.member->footprint());
+    notes.add(ranges.data(), ranges.size() * sizeof ranges[0]);
+    notes.add(&node.getFileName(0), node.getNumFileNames() * sizeof(osg::PagedLOD::PerRangeData));
+    notes.addChildren(node);
     if (!isMesh && isPaged(node, *shown)) {
         doubtLevelsOf(tile);
-        selectLevel(level, tile.member->wayThrough());
+        selectLevel(level, notes);
         return true;
     }
+    if (isMesh) tile.member->noteMesh(notes);
     Tile here = tile;
     here.kept = keep(level, tile.member, isMesh ? Way::Mesh : Way::Plain);
     here.isEnteredByOsg = !isMesh || level.getCullCallback();
@@ -304,10 +310,10 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
 }
 
 // A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level, const Footprint& wayThrough) {
+void SelectionWalk::selectLevel(osg::Node& level, Footprint::Notes& notes) {
     const TileFamily* const family = inlineFamily(level);
     if (!family) return selectNode(level);
-    family->noteMemory(wayThrough, level);
+    family->noteMemory(notes, *level.asGroup());
     selectInside(*level.asGroup(), family);
 }
 

@@ -105,7 +105,7 @@ private:
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
     void selectInside(osg::Group& group, const TileFamily* family);
-    void selectLevel(osg::Node& level, const Footprint& wayThrough);
+    void selectLevel(osg::Node& level, Footprint::Notes& notes);
     void searchNode(osg::Node& node);
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);

@@ -290,16 +290,18 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
                   verdicts);
 }
 
-void TileFamily::noteMemory(const Footprint& footprint, const osg::Node& level) const {
-    Footprint::Notes notes(footprint);
-    notes.add(&level, 4);
-    notes.add(this, 5);
-    notes.add(_block, 2);
-    notes.add(_nodes.data(), 1);
-    if (_block->size() == 0) return;
-    notes.add(&_block->partFrom(0), 4);
-    notes.add(&(*_block)[0], 6);
-    notes.add(_tiles.data(), 12);
+void TileFamily::noteMemory(Footprint::Notes& notes, const osg::Group& level) const {
+    notes.add(&level, sizeof level);
+    notes.addChildren(level);
+    notes.add(this, sizeof *this);
+    notes.add(_block.get(), sizeof *_block);
+    notes.add(_nodes.data(), _nodes.size() * sizeof _nodes[0]);
+    if (_nodes.empty()) return;
+    const TileBlock::Part& part = _block->partFrom(0);
+    notes.add(&part, sizeof part);
+    notes.add(part.bins.numbers(), part.bins.bytes());
+    notes.add(&(*_block)[0], _block->size() * sizeof(TileBlock::Slot));
+    notes.add(_tiles.data(), _tiles.size() * sizeof _tiles[0]);
 }
 
 // A state that the application has set since then is asked for.

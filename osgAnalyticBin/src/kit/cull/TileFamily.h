@@ -132,7 +132,7 @@ public:
     }
 
     /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
-    void noteMemory(const Footprint& footprint, const osg::Node& level) const;
+    void noteMemory(Footprint::Notes& notes, const osg::Group& level) const;
 
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }

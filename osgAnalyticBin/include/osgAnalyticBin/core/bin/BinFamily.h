@@ -44,6 +44,12 @@ public:
     /// The slots that have a bin, one bit each.
     [[nodiscard]] std::uint64_t filled() const noexcept { return _data.filled; }
 
+    /// @{
+    /// The memory that tests read, for prefetching.
+    [[nodiscard]] const void* numbers() const noexcept { return _data.numbers; }
+    [[nodiscard]] std::size_t bytes() const noexcept { return _lines.size() * sizeof(Line); }
+    /// @}
+
     /// Gives the slot a bin, in the form that the bin has. Its horizon stays as it is. Requires: i < size().
     void set(std::size_t i, const ExactGeodeticBin& bin) noexcept;
     /// Likewise; the bin may be one of any mapping.
