@@ -56,6 +56,29 @@ bool isBeyondNear(const HorizonBuffer& picture, const core::BinBall& ball, const
     return ball.centre.y - ball.radius - kRounding > reachOf(found) + found.eyes.y || picture.isBeside(ball);
 }
 
+// Whether something of a tile may be between the sides of the picture and within reach of the near plane.
+bool isNear(const FoundOcclusion::Tile& tile, const HorizonBuffer& picture, const core::Ellipsoid& ellipsoid,
+            const core::InverseFrame& frame, const FoundOcclusion& found) {
+    const GeodeticBin drawn = tile.drawn();
+    const core::BinBody body(ellipsoid, drawn, tile.margin, frame);
+    if (isBeyondNear(picture, body.ball(), found)) return false;
+    const auto hulls = body.quarters();
+    return std::any_of(hulls.begin(), hulls.end(), [&](const BinHull& hull) {
+        const HorizonBuffer::Outline outline = picture.outlineOf(hull);
+        return !outline.isBeside && !(outline.nearest > reachOf(found) + found.eyes.y);
+    });
+}
+
+std::shared_ptr<const CoveredPicture> coveredIn(const FoundOcclusion& found, const HorizonBuffer& earth) {
+    const auto picture = std::make_shared<CoveredPicture>();
+    picture->eye = found.eye;
+    picture->across = found.span.across;
+    picture->heights.reserve(HorizonBuffer::kStrips);
+    for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
+        picture->heights.push_back(earth.covered(strip));
+    return picture;
+}
+
 class OcclusionSearch {
 public:
     OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, FoundPtr found)
@@ -81,7 +104,7 @@ public:
         if (!(_found->nearReach > 0.0)) return true;
         for (std::size_t i = 0; i < shown.size(); ++i) {
             const FoundOcclusion::Tile& tile = _found->tiles[i];
-            if (!isNear(tile)) continue;
+            if (!isNear(tile, _buffer, _ellipsoid, _frame, *_found)) continue;
             if (_near.size() == NearMeshes::kMostTiles) return false;
             _near.push_back({meshes.meshOf(*shown[i].tile, *shown[i].mesh), tile.margin});
             if (!_near.back().mesh) return false;
@@ -95,23 +118,27 @@ public:
         for (const NearMesh& near : _near) add(*near.mesh, reachOf(*_found), _found->eyes + near.margin, terrain);
         if (!(terrain.top < HUGE_VAL)) return nullptr;
         if (_found->nearReach > 0.0) _buffer.setLowest(terrain.top);
+        // a search before this one may have supposed another near plane
+        _found->number.clear();
+        _found->findings.clear();
+        _found->hidden.clear();
         _quarters.reserve(2 * _candidates.size());
         _order.reserve(2 * _candidates.size());
         for (std::size_t i = 0; i < _candidates.size(); ++i) addQuarters(i);
         std::sort(_order.begin(), _order.end());
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
-            if (_buffer.hides(quarter.outline) || arePartsHidden(quarter)) continue;
+            if (isHidden(quarter)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
         _found->lastClearance = std::min(terrain.nearest, _buffer.nearestEarth());
-        _found->covered = covered();
-        _found->findings.clear();
+        _found->covered = coveredIn(*_found, _buffer);
         for (const Candidate& candidate : _candidates) {
             using Finding = FoundOcclusion::Finding;
             const Finding hidden = candidate.isMeshAlone ? Finding::MeshHidden : Finding::Hidden;
             const Finding inPicture = candidate.isHidden ? hidden : Finding::Seen;
+            _found->number.push_back(static_cast<std::uint32_t>(_found->findings.size()));
             _found->findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
         }
         _found->earth = std::move(_buffer);
@@ -136,9 +163,16 @@ private:
         }
     }
 
-    // Whether all four parts of a quarter are hidden: they are smaller, and most are lower. Only earth in front of the
-    // whole quarter counts, because earth is used front to back.
-    [[nodiscard]] bool arePartsHidden(const Quarter& quarter) {
+    // Whether a quarter is hidden, or all four parts of it: they are smaller, and most are lower. Only earth in front
+    // of the whole quarter counts, because earth is used front to back.
+    [[nodiscard]] bool isHidden(const Quarter& quarter) {
+        const auto number = static_cast<std::uint32_t>(quarter.candidate);
+        std::vector<FoundOcclusion::HiddenBody>& hidden = _found->hidden;
+        if (_buffer.hides(quarter.outline)) {
+            hidden.push_back({number, quarter.outline});
+            return true;
+        }
+        const std::size_t before = hidden.size();
         Candidate& candidate = _candidates[quarter.candidate];
         const GeodeticBin drawn = candidate.tile->drawn(), bin = drawn.quarters()[quarter.number];
         auto hulls = core::BinBody(_ellipsoid, bin, candidate.tile->margin, _frame).quarters();
@@ -146,7 +180,12 @@ private:
             if (isMeshAll(candidate)) lower(hulls[i], candidate.plates->most(4 * quarter.number + i, drawn), candidate);
             HorizonBuffer::Outline outline = _buffer.outlineOf(hulls[i]);
             outline.nearest = quarter.outline.nearest;
-            if (!outline.isBeside && !_buffer.hides(outline)) return false;
+            if (outline.isBeside) continue;
+            if (!_buffer.hides(outline)) {
+                hidden.resize(before);
+                return false;
+            }
+            hidden.push_back({number, outline});
         }
         return true;
     }
@@ -168,18 +207,6 @@ private:
         double top = -HUGE_VAL;     // of its picture; infinite where it may be at the eye
         double nearest = HUGE_VAL;  // metres from the eye, roughly
     };
-
-    // Whether something of a tile may be between the sides of the picture and within reach of the near plane.
-    [[nodiscard]] bool isNear(const FoundOcclusion::Tile& tile) const {
-        const GeodeticBin drawn = tile.drawn();
-        const core::BinBody body(_ellipsoid, drawn, tile.margin, _frame);
-        if (isBeyondNear(_buffer, body.ball(), *_found)) return false;
-        const auto hulls = body.quarters();
-        return std::any_of(hulls.begin(), hulls.end(), [&](const BinHull& hull) {
-            const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
-            return !outline.isBeside && !(outline.nearest > reachOf(*_found) + _found->eyes.y);
-        });
-    }
 
     // Triangles that may be `margin` metres away from their place, along each axis.
     void add(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin, NearTerrain& terrain) const {
@@ -232,16 +259,6 @@ private:
         return highest >= 0.0 && !(nearest > 0.0) ? HUGE_VAL : top;
     }
 
-    [[nodiscard]] std::shared_ptr<const CoveredPicture> covered() const {
-        const auto picture = std::make_shared<CoveredPicture>();
-        picture->eye = _found->eye;
-        picture->across = _found->span.across;
-        picture->heights.reserve(HorizonBuffer::kStrips);
-        for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
-            picture->heights.push_back(_buffer.covered(strip));
-        return picture;
-    }
-
     // Lines of sight that meet earth there come from above the terrain, not from beside it.
     [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const { return !_region || _region->contains(bin); }
 
@@ -262,7 +279,7 @@ private:
         constexpr double kWorth = 0.1;
         const double worth = kWorth * candidate.distance * _found->span.across.width() / HorizonBuffer::kStrips;
         candidate.plates->columns(GroundPlates::kFinest, coarsest, quarter.number, depth, worth, _frame, _columns);
-        _buffer.add(_columns);
+        _buffer.add(_columns, static_cast<std::uint32_t>(quarter.candidate));
     }
 
     const std::optional<core::CoveredRegion> _region;
@@ -325,47 +342,61 @@ bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
 
 bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
     if (tiles == shown) return true;
-    constexpr std::size_t kMost = 16;  // tiles that have come, or left the view: each costs a look at all others
-    std::vector<Finding> now;
+    // each tile that has come, or left the view, costs a look at all others
+    constexpr std::size_t kMostCome = 64, kMostLeft = 16;
+    const core::InverseFrame frame(eye);
+    std::vector<std::uint32_t> now, lost;
     now.reserve(shown.size());
     std::size_t next = 0;
     const auto passUntil = [&](std::size_t end) {
         for (; next < end; ++next) {
-            if (findings[next] != Finding::Seen) continue;
-            if (leftView.size() == kMost || !isOutOfView(tiles[next], view, ellipsoid)) return false;
-            leftView.push_back(tiles[next].bin);
+            if (number[next] == kCame || findings[number[next]] != Finding::Seen) continue;
+            if (leftView.size() < kMostLeft && isOutOfView(tiles[next], view, ellipsoid)) {
+                leftView.push_back({number[next], tiles[next].bin});
+            } else {
+                lost.push_back(number[next]);
+            }
         }
-        return true;
-    };
-    const auto mayCome = [&](const Tile& tile) {
-        if (!tile.isPlaced() || !earth) return false;
-        const GeodeticBin drawn = tile.drawn();
-        return isBeyondNear(*earth, core::BinBody(ellipsoid, drawn, tile.margin, eye).ball(), *this);
     };
     for (const Tile& tile : shown) {
         const auto from = tiles.begin() + static_cast<std::ptrdiff_t>(next);
         const auto same = static_cast<std::size_t>(std::find(from, tiles.end(), tile) - tiles.begin());
         if (same == tiles.size()) {
-            if (come.size() == kMost || !mayCome(tile)) return false;
+            const bool mayCome = earth && come.size() < kMostCome && tile.isPlaced();
+            if (!mayCome || isNear(tile, *earth, ellipsoid, frame, *this)) return false;
             come.push_back(tile.bin);
-            now.push_back(Finding::Seen);
+            now.push_back(kCame);
         } else {
-            if (!passUntil(same)) return false;
-            now.push_back(findings[next++]);
+            passUntil(same);
+            now.push_back(number[next++]);
         }
     }
-    if (!passUntil(tiles.size())) return false;
-    for (const GeodeticBin& bin : come) {
-        for (const GeodeticBin& left : leftView) {
-            if (areOverOneAnother(bin, left)) return false;
-        }
-    }
-    findings = std::move(now);
+    passUntil(tiles.size());
+    const auto isOverOneThatCame = [&](const Left& left) {
+        const auto isOver = [&](const GeodeticBin& bin) { return areOverOneAnother(bin, left.bin); };
+        if (std::none_of(come.begin(), come.end(), isOver)) return false;
+        lost.push_back(left.number);
+        return true;
+    };
+    leftView.erase(std::remove_if(leftView.begin(), leftView.end(), isOverOneThatCame), leftView.end());
+    if (!lost.empty()) forget(lost);
+    isOutdated = isOutdated || !lost.empty() || !come.empty();
+    number = std::move(now);
     tiles = shown;
     return true;
 }
 
-void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step) {
+// The earth of these tiles hides nothing any more.
+void FoundOcclusion::forget(const std::vector<std::uint32_t>& numbers) {
+    if (!earth) return;
+    earth->restart(numbers);
+    for (const HiddenBody& body : hidden) {
+        if (!earth->hides(body.outline)) findings[body.tile] = Finding::Seen;
+    }
+    covered = coveredIn(*this, *earth);
+}
+
+void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step, bool isAhead) {
     constexpr double kViews = 16.0;  // to the middle of the way that is foreseen
     // Shares of the clearance: farther, terrain near the eye hides too little. What is straight ahead only grows.
     constexpr double kAhead = 0.25, kAside = 0.03;
@@ -379,8 +410,9 @@ void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step) {
     eye = from;
     eyes = glm::dvec3(rounding);
     if (!(length > rounding && views > 0.0)) return;
-    eye.origin += views * step;
-    eyes += (1.0 + kWobble) * views * glm::abs(along) + kWobble * views * length;
+    const double toMiddle = isAhead ? std::max(1.0, views) : views;
+    eye.origin += toMiddle * step;
+    eyes += views * glm::abs(along) + kWobble * (toMiddle * glm::abs(along) + toMiddle * length);
 }
 
 bool FoundOcclusion::holds(const glm::dvec3& place) const {

@@ -48,22 +48,36 @@ struct FoundOcclusion {
         MeshHidden  ///< finer levels of the tile may be seen
     };
 
-    std::vector<Tile> tiles;        ///< all tiles shown at the time of the search
-    std::vector<Tile> shown;        ///< all tiles shown in the present view; a member to avoid allocations
-    std::vector<Finding> findings;  ///< one for each of `tiles`
-    core::Frame eye{};              ///< origin: the place; axes: those of the picture
-    glm::dvec3 eyes{0.0};           ///< metres from the place to the farthest eyes, along each axis of the picture
-    PictureSpan span{};             ///< of the picture
-    double nearReach = 0.0;         ///< metres ahead of the eye that the near plane may cut at most; 0: not considered
-    double neededReach = 0.0;       ///< where OSG computes that plane: the same of the last view
+    /// A body that a hidden tile is in, or one of several.
+    struct HiddenBody {
+        std::uint32_t tile;
+        core::HorizonBuffer::Outline outline;
+    };
+    static constexpr std::uint32_t kCame = ~std::uint32_t{0};
+
+    std::vector<Tile> tiles;            ///< all tiles shown in the last view that the result served
+    std::vector<Tile> shown;            ///< all tiles shown in the present view; a member to avoid allocations
+    std::vector<std::uint32_t> number;  ///< of each of `tiles` in the search; kCame: it has come since
+    std::vector<Finding> findings;      ///< one for each number
+    std::vector<HiddenBody> hidden;     ///< from front to back
+    core::Frame eye{};                  ///< origin: the place; axes: those of the picture
+    glm::dvec3 eyes{0.0};               ///< metres from the place to the farthest eyes, along each axis of the picture
+    PictureSpan span{};                 ///< of the picture
+    double nearReach = 0.0;    ///< metres ahead of the eye that the near plane may cut at most; 0: not considered
+    double neededReach = 0.0;  ///< where OSG computes that plane: the same of the last view
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
     std::optional<core::HorizonBuffer> earth;  ///< all that hides; sorted once it is asked for
     int uses = 0;                              ///< views since the search
     /// @{
     /// Since the search; see follow().
-    std::vector<core::GeodeticBin> come;      ///< of tiles that were not shown then
-    std::vector<core::GeodeticBin> leftView;  ///< of tiles that hid others, and are out of view
+    struct Left {
+        std::uint32_t number;
+        core::GeodeticBin bin;
+    };
+    std::vector<Left> leftView;           ///< tiles that hid others, and are out of view
+    std::vector<core::GeodeticBin> come;  ///< of tiles that were not shown then
+    bool isOutdated = false;              ///< a new search may find more
     /// @}
 
     /// @{
@@ -73,25 +87,33 @@ struct FoundOcclusion {
     double lastClearance = 0.0;   ///< metres from the eye to terrain in the picture, roughly
     /// @}
 
-    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view.
-    void aimAlong(const core::Frame& from, const glm::dvec3& step);
+    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view. `isAhead`: from
+    /// the next view on.
+    void aimAlong(const core::Frame& from, const glm::dvec3& step, bool isAhead);
 
     /// Takes over the tiles that are shown now, if the result holds with them. Tiles that hid nothing may have gone.
-    /// Those that hid others may have gone out of view. Tiles may have come beyond the reach of the near plane, but not
-    /// where one has gone out of view: they hide nothing, and are not hidden. Source: doc/theory/occlusion.md,
-    /// section 5. Returns: whether the result holds.
+    /// Those that hid others may have gone out of view; what is left in view is asked for again without the earth of
+    /// others. Tiles may have come beyond the reach of the near plane: they hide nothing, and are not hidden. Source:
+    /// doc/theory/occlusion.md, section 5. Returns: whether the result holds.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
 
     /// Whether the box of eyes contains this one.
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
 
-    /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < findings.size().
+    /// Of one of `tiles`.
+    [[nodiscard]] Finding finding(std::size_t i) const {
+        return number[i] == kCame ? Finding::Seen : findings[number[i]];
+    }
+    /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < tiles.size().
     [[nodiscard]] bool hides(std::size_t i, const ShownTile& tile) const {
-        return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
+        return finding(i) == Finding::Hidden || (finding(i) == Finding::MeshHidden && tile.isOnlyLevel);
     }
 
     /// Whether the eye has moved too far since the last view for a continuous motion.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
+
+private:
+    void forget(const std::vector<std::uint32_t>& numbers);
 };
 
 using FoundPtr = std::unique_ptr<FoundOcclusion>;

@@ -5,6 +5,7 @@
 #include "../kit/tile/InstalledTile.h"
 #include "../kit/tile/TerrainHider.h"
 #include "OcclusionSearch.h"
+#include "SearchThread.h"
 
 #include <glm/geometric.hpp>
 
@@ -71,16 +72,17 @@ std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
 // Meshes around the eye may change: what was found is not believed for more views.
 constexpr int kMostUses = 64;
 
-// Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
+// Prepares a search that serves as many of the next views as it can, if the camera goes on as it does. `isAhead`: this
+// view is not among them.
 void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, const PictureSpan& span,
-         const std::optional<PictureSpan>& spanThen) {
+         const std::optional<PictureSpan>& spanThen, bool isAhead) {
     constexpr double kViews = 8.0;       // for which a turn is foreseen
     constexpr double kMostTurned = 0.1;  // of the picture's width
     // the vertical turns as the eye moves
     constexpr double kLeastTurned = 1e-3;
     const glm::dvec3 step = eye - found.lastEye;
     const bool goesOn = spanThen && !found.isJump(step);
-    found.aimAlong(view.frameAt(eye), goesOn ? step : glm::dvec3(0.0));
+    found.aimAlong(view.frameAt(eye), goesOn ? step : glm::dvec3(0.0), isAhead);
     found.span = span;
     found.span.drawing *= 1.25;
     found.span.depthStep *= 1.25;
@@ -96,8 +98,8 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
 // The shown tiles in view that are hidden.
 std::vector<std::size_t> hiddenIn(const FoundOcclusion& found, const std::vector<ShownTile>& shown) {
     std::vector<std::size_t> hidden;
-    hidden.reserve(found.findings.size());
-    for (std::size_t i = 0; i < found.findings.size(); ++i) {
+    hidden.reserve(shown.size());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
         const ShownTile& tile = shown[i];
         const bool obeysDepth = !tile.tile->getInstalledTile()->has(InstalledTile::IgnoresDepth);
         if (!tile.isOutOfView && found.hides(i, tile) && obeysDepth) hidden.push_back(i);
@@ -107,8 +109,8 @@ std::vector<std::size_t> hiddenIn(const FoundOcclusion& found, const std::vector
 
 std::size_t countInView(const FoundOcclusion& found, const std::vector<ShownTile>& shown) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < found.findings.size(); ++i) {
-        if (found.findings[i] != FoundOcclusion::Finding::Beside && !shown[i].isOutOfView) ++count;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (found.finding(i) != FoundOcclusion::Finding::Beside && !shown[i].isOutOfView) ++count;
     }
     return count;
 }
@@ -186,7 +188,7 @@ std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& l
 
 // What a search of this view begins with.
 FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const LevelView& lines,
-               const std::optional<PictureSpan>& spanThen) {
+               const std::optional<PictureSpan>& spanThen, bool isAhead) {
     const auto span = PictureSpan::of(lines, lines.frameAt(view.eye));
     if (!span) return nullptr;
     auto found = std::make_unique<FoundOcclusion>();
@@ -194,7 +196,7 @@ FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const
     found->lastAcross = last.lastAcross;
     found->lastClearance = last.lastClearance;
     found->neededReach = last.neededReach;
-    aim(*found, lines, view.eye, *span, spanThen);
+    aim(*found, lines, view.eye, *span, spanThen, isAhead);
     found->tiles = last.shown;
     found->region = regionOf(view);
     return found;
@@ -249,18 +251,25 @@ public:
         hidden.missing = hidden.isAwaited ? "tiles that are prepared: wait a moment" : "tiles without holes";
         if (ground != Ground::Known) return hidden;
         auto spanThen = PictureSpan::of(*lines, _found->eye);
-        std::optional<LeftOut> left = served(*_found, view, *lines, shown, spanThen);
+        std::optional<LeftOut> left;
+        if (_found->isOutdated) left = servedAhead(view, *lines, shown, spanThen);
+        if (!left) left = served(*_found, view, *lines, shown, spanThen);
         if (!left) left = servedAhead(view, *lines, shown, spanThen);
         if (!left) {
-            FoundPtr next = aimed(*_found, view, *lines, spanThen);
+            FoundPtr next = aimed(*_found, view, *lines, spanThen, false);
             if (!next) return nothingFor(kSteep);
             left = search(view, *lines, shown, _nearMeshes, next);
-            _found = std::move(next);
-            if (!left) return nothingFor(kNearPlane);
-            _found->uses = 1;
-        } else if (!_ahead.valid() && spanThen && isNearlyUsedUp(*_found, view.eye, spanThen->across)) {
-            searchAhead(view, *lines, shown, spanThen);
+            if (!left) {
+                _found = std::move(next);
+                return nothingFor(kNearPlane);
+            }
+            next->uses = 1;
+            next->shown.swap(_found->shown);
+            hidden.isForOneView = _found->isJump(view.eye - _found->lastEye);
+            takeOver(std::move(next), *lines, spanThen);
         }
+        if (!_ahead.valid() && spanThen && (_found->isOutdated || isNearlyUsedUp(*_found, view.eye, spanThen->across)))
+            searchAhead(view, *lines, shown, spanThen);
         hidden.tiles = std::move(left->tiles);
         _found->neededReach = left->reach;
         hidden.inView = countInView(*_found, shown);
@@ -300,29 +309,39 @@ private:
             ahead->shown.swap(_found->shown);
             return std::nullopt;
         }
-        ahead->lastEye = _found->lastEye;
+        takeOver(std::move(ahead), lines, spanThen);
+        return left;
+    }
+
+    // What was found in its stead serves from this view on.
+    void takeOver(FoundPtr found, const LevelView& lines, std::optional<PictureSpan>& spanThen) {
+        const auto span = PictureSpan::of(lines, found->eye);
         // the same turn in the other picture
         const core::Interval before = _found->lastAcross, now = spanThen ? spanThen->across : before;
-        ahead->lastAcross = {span->across.lower + before.lower - now.lower,
-                             span->across.upper + before.upper - now.upper};
-        _found = std::move(ahead);
+        found->lastEye = _found->lastEye;
+        if (span)
+            found->lastAcross = {span->across.lower + before.lower - now.lower,
+                                 span->across.upper + before.upper - now.upper};
+        _found = std::move(found);
         spanThen = span;
-        return left;
     }
 
     // Starts a search for the views that follow those which what was found serves.
     void searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
                      const std::optional<PictureSpan>& spanThen) {
-        FoundPtr next = aimed(*_found, view, lines, spanThen);
+        // it would serve none of them
+        if (_found->isJump(view.eye - _found->lastEye)) return;
+        FoundPtr next = aimed(*_found, view, lines, spanThen, true);
         if (!next) return;
         next->nearReach = reachToBeginWith(view, lines, *next);
         next->uses = -_found->uses;  // it grows old while the other one serves
-        if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = std::async(std::move(run));
+        if (auto run = prepareSearch(view, shown, _nearMeshes, std::move(next))) _ahead = _thread.start(std::move(run));
     }
 
     FoundPtr _found;               // by the last search; null: none
     std::future<FoundPtr> _ahead;  // of a search for the views that follow those which that one serves
-    NearMeshes _nearMeshes;        // last read around the eye
+    SearchThread _thread;
+    NearMeshes _nearMeshes;  // last read around the eye
 };
 
 }  // namespace

@@ -248,14 +248,15 @@ core::EarthColumns columnsOf(const EarthColumn& column) {
     return columns;
 }
 
-void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
+void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             std::uint32_t owner) {
     const core::GroundPlates plates = platesOf(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         plates.columns(cells, cells, quarter, depth, 0.0, frameOf(scene), columns);
-        buffer.add(columns);
+        buffer.add(columns, owner);
     }
 }
 

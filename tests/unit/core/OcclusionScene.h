@@ -67,7 +67,8 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 [[nodiscard]] bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes);
 
 /// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
-void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells);
+void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             std::uint32_t owner = 0);
 
 /// A quarter of a tile, or a part of one, with its outline in the buffer's picture.
 struct OutlinedPart {

@@ -11,7 +11,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -113,6 +115,42 @@ TEST(SortedEarth, HidesWhatTheBufferHides) {
         }
     }
     EXPECT_GT(hidden, 30);
+}
+
+// Whether it was asked before, and sorted, or not.
+TEST(HorizonBuffer, HidesWithoutTheEarthOfSomeWhatOthersHide) {
+    Random random(1734);
+    int hidden = 0, fewer = 0;
+    for (int i = 0; i < 30; ++i) {
+        const OcclusionScene scene(random, false);
+        HorizonBuffer restarted = bufferOf(scene), others = bufferOf(scene), all = bufferOf(scene);
+        std::vector<std::uint32_t> without;
+        for (std::uint32_t k = 0; k < scene.tiles.size(); ++k) {
+            const GroundTile& tile = scene.tiles[k];
+            addTile(restarted, scene, tile, 8, k);
+            addTile(all, scene, tile, 8);
+            if (random.chance(0.3)) {
+                without.push_back(k);
+            } else {
+                addTile(others, scene, tile, 8);
+            }
+        }
+        const auto bodies = frontToBack(scene, all);
+        if (i % 3 > 0) (void)restarted.hides(bodies[bodies.size() / 2].outline);
+        if (i % 3 == 2) restarted.sort();
+        restarted.restart(without);
+        EXPECT_FALSE(restarted.isSorted());
+        for (const auto& [part, outline] : bodies) {
+            const bool isHidden = restarted.hides(outline);
+            EXPECT_EQ(isHidden, others.hides(outline)) << "scene " << i;
+            const bool isHiddenByAll = all.hides(outline);
+            EXPECT_TRUE(isHiddenByAll || !isHidden);
+            hidden += isHidden ? 1 : 0;
+            fewer += isHiddenByAll && !isHidden ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hidden, 30);
+    EXPECT_GT(fewer, 30);
 }
 
 // Points of the ball are in its outline, for all eyes, and the outline is no wider than that of a cube.

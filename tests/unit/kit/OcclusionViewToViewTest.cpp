@@ -150,8 +150,25 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
     EXPECT_GT(hidden, 20);
 }
 
-TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
+// A level of detail that is replaced in view hides nothing from then on, and what others hide stays hidden.
+TEST(TerrainOcclusion, HidesAtOnceNoMoreThanIsLeftWhereARidgeIsReplaced) {
+    RidgeGlobe globe;
+    const auto setHeight = [&globe](unsigned int i, double height) {
+        globe.row[i]->setChild(0, makeMeshTile(extentsDeg(0, 0.2, 0.2 * i, 0.2 * i + 0.2), height));
+        installBins(*globe.root, withOcclusion());
+    };
+    const auto drawsFarTile = [&globe] { return globe.draws(*globe.row[5], RidgeGlobe::alongRow()); };
+    setHeight(3, 8000.0);
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(drawsFarTile()) << i;
+    setHeight(2, 0.0);
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(drawsFarTile()) << i;
+    setHeight(3, 0.0);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(drawsFarTile()) << i;
+}
+
+TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     using Finding = FoundOcclusion::Finding;
+    enum class Result { Nothing, Less, All };
     const core::Ellipsoid ellipsoid(6378137.0, 6356752.3142);
     // the half-space north of the equator
     core::PlaneSet view;
@@ -163,48 +180,58 @@ TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
     };
     FoundOcclusion first;
     first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
+    first.number = {0, 1, 2, 3};
     first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
+    // no earth is left that hides it when that of others is taken away
+    first.hidden = {{1, {100.0, {0.0, 0.1}, {0.0, 0.1}, 100.0, false}}};
     // from the south, looking north
     first.eye = {{7e6, 0.0, -5e6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
     first.nearReach = 1000.0;
     first.earth.emplace(7e6, core::Interval{-1.0, 1.0});
     // numbers: of the first tiles
-    const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
-                              const std::vector<FoundOcclusion::Tile>& come = {}) {
+    const auto whatOutlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
+                                  const std::vector<FoundOcclusion::Tile>& come = {}) {
         FoundOcclusion found = from;
         for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
         found.shown.insert(found.shown.end(), come.begin(), come.end());
         const bool holds = found.follow(view, ellipsoid);
-        EXPECT_EQ(found.tiles.size(), found.findings.size());
+        EXPECT_EQ(found.tiles.size(), found.number.size());
         EXPECT_EQ(found.tiles == found.shown, holds);
-        for (std::size_t i = 0; holds && i < found.tiles.size(); ++i)
-            EXPECT_EQ(found.findings[i], i < shown.size() ? from.findings[shown[i]] : Finding::Seen);
-        return holds;
+        if (!holds) return Result::Nothing;
+        for (std::size_t i = 0; i < found.tiles.size(); ++i)
+            EXPECT_EQ(found.number[i], i < shown.size() ? from.number[shown[i]] : FoundOcclusion::kCame);
+        const bool isLess = found.findings[1] == Finding::Seen;
+        EXPECT_TRUE(found.isOutdated || !isLess);
+        return isLess ? Result::Less : Result::All;
     };
-    EXPECT_TRUE(outlasts({0, 2, 3}, first));
-    EXPECT_TRUE(outlasts({0, 1, 3}, first));
-    EXPECT_TRUE(outlasts({0, 3}, first));
-    EXPECT_FALSE(outlasts({1, 2, 3}, first));
-    EXPECT_FALSE(outlasts({0, 1, 2}, first));
+    EXPECT_EQ(whatOutlasts({0, 2, 3}, first), Result::All);
+    EXPECT_EQ(whatOutlasts({0, 1, 3}, first), Result::All);
+    EXPECT_EQ(whatOutlasts({0, 3}, first), Result::All);
+    EXPECT_EQ(whatOutlasts({1, 2, 3}, first), Result::Less);
+    EXPECT_EQ(whatOutlasts({0, 1, 2}, first), Result::Less);
     // what may reach into the view by its margin, or by the bulge of its sides
     for (const auto& near : {tile(-1, -0.001, 200.0), tile(-1, 1e-4)}) {
         FoundOcclusion reaching = first;
         reaching.tiles[2] = near;
-        EXPECT_FALSE(outlasts({0, 1, 3}, reaching));
+        EXPECT_EQ(whatOutlasts({0, 1, 3}, reaching), Result::Less);
     }
     // others come: beside what has gone out of view, or in its place
-    EXPECT_TRUE(outlasts({0, 1, 2, 3}, first, {tile(5, 6)}));
-    EXPECT_TRUE(outlasts({0, 1, 3}, first, {tile(-2, 1)}));
-    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(-4, 1)}));
-    EXPECT_FALSE(outlasts({0, 1, 3}, first, {tile(5, 6), tile(-2.1, 1)}));
-    EXPECT_FALSE(outlasts({1, 2, 3}, first, {tile(1, 1.5)}));
+    EXPECT_EQ(whatOutlasts({0, 1, 2, 3}, first, {tile(5, 6)}), Result::All);
+    EXPECT_EQ(whatOutlasts({0, 1, 3}, first, {tile(-2, 1)}), Result::All);
+    EXPECT_EQ(whatOutlasts({0, 1, 3}, first, {tile(-4, 1)}), Result::Less);
+    EXPECT_EQ(whatOutlasts({0, 1, 3}, first, {tile(5, 6), tile(-2.1, 1)}), Result::Less);
+    EXPECT_EQ(whatOutlasts({1, 2, 3}, first, {tile(1, 1.5)}), Result::Less);
     // in views that follow, too
     FoundOcclusion later = first;
     later.shown = {first.tiles[0], first.tiles[3]};
     EXPECT_TRUE(later.follow(view, ellipsoid));
     later.shown.clear();
-    EXPECT_FALSE(outlasts({0, 1}, later, {tile(-4, 1)}));
-    EXPECT_TRUE(outlasts({0, 1}, later, {tile(-2, 1)}));
+    EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-4, 1)}), Result::Less);
+    EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-2, 1)}), Result::All);
+    const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
+                              const std::vector<FoundOcclusion::Tile>& come) {
+        return whatOutlasts(shown, from, come) != Result::Nothing;
+    };
     // too near for what is known of the near plane
     FoundOcclusion close = first;
     const auto standAt = [&close](double north, double east) {

@@ -34,7 +34,7 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
     _walls.reserve(1024);
 }
 
-void HorizonBuffer::add(const EarthColumns& columns) {
+void HorizonBuffer::add(const EarthColumns& columns, std::uint32_t owner) {
     constexpr std::size_t kMost = EarthColumns::kMost;
     static_assert(kMost % kernels::kMostLanes == 0);
     std::array<double, WallRow::kCount * kMost> rows;
@@ -48,10 +48,28 @@ void HorizonBuffer::add(const EarthColumns& columns) {
         const Strips strips = stripsOf(wall);
         // what is no higher than earth in front of it covers nothing more
         if (strips.first >= strips.last || !isAboveKnown(strips, wall[WallRow::Highest])) continue;
-        const std::size_t range = rangeOf(wall[WallRow::Farthest]);
-        _walls.push_back({wall, std::exchange(_lists[range], static_cast<std::int32_t>(_walls.size()))});
-        _nearestList = std::min(_nearestList, range);
+        _walls.push_back({wall, kNone, owner});
+        wait(_walls.back());
     }
+}
+
+void HorizonBuffer::wait(Waiting& waiting) {
+    const std::size_t range = rangeOf(waiting.wall[WallRow::Farthest]);
+    waiting.next = std::exchange(_lists[range], static_cast<std::int32_t>(&waiting - _walls.data()));
+    _nearestList = std::min(_nearestList, range);
+}
+
+void HorizonBuffer::restart(const std::vector<std::uint32_t>& without) {
+    const auto isTakenAway = [&](const Waiting& waiting) {
+        return std::find(without.begin(), without.end(), waiting.owner) != without.end();
+    };
+    _walls.erase(std::remove_if(_walls.begin(), _walls.end(), isTakenAway), _walls.end());
+    _lower.fill(kInfinity);
+    _upper.fill(-kInfinity);
+    _lists.fill(kNone);
+    _firstSteps.clear();
+    _reached = 0.0;
+    for (Waiting& waiting : _walls) wait(waiting);
 }
 
 // The strips that lie wholly within a wall.
@@ -185,7 +203,7 @@ void HorizonBuffer::sort() {
     _upper.fill(-kInfinity);
     _firstSteps.assign(kStrips + 1, 0);
     std::vector<std::pair<std::size_t, Step>> steps;  // with their strips, by distance
-    for (const auto& [wall, next] : _walls) {
+    for (const auto& [wall, next, owner] : _walls) {
         const auto [first, last] = stripsOf(wall);
         const auto lowerBefore = _lower, upperBefore = _upper;
         kernels::activeOcclusion.raise(_picture, wall.data(), first, last, _lower.data(), _upper.data());

@@ -113,6 +113,7 @@ public:
         unsigned int holes = 0;            ///< views since a search last did not come to nothing
         unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;          ///< how many of them are left
+        unsigned int forOneView = 0;       ///< views in a row in which what was found served that view alone
         osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
         DatabaseRest databaseRest;         ///< while bins gain nothing
     };

@@ -48,11 +48,13 @@ bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
 
 // After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
 // microseconds of drawing; looking for hidden tiles takes three to seven microseconds for each tile in view, and serves
-// some views.
+// some views, unless the eye is moving too fast.
 void noteHidden(const TerrainHider::Hidden& hidden, CullTraversal::LastView& last) {
     if (hidden.isAwaited) return;
-    constexpr unsigned int kLongestRest = 256;
-    const bool pays = 4 * hidden.tiles.size() >= hidden.inView && !hidden.tiles.empty();
+    constexpr unsigned int kLongestRest = 256, kMostForOneView = 8;
+    last.forOneView = hidden.isForOneView ? last.forOneView + 1 : 0;
+    const bool pays =
+        4 * hidden.tiles.size() >= hidden.inView && !hidden.tiles.empty() && last.forOneView < kMostForOneView;
     last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
     last.resting = last.rest;
 }

@@ -67,8 +67,9 @@ public:
     /// Tiles by their positions among those that are shown.
     struct Hidden {
         std::vector<std::size_t> tiles;
-        std::size_t inView = 0;  ///< number of tiles in view, hidden ones included
-        bool isAwaited = false;  ///< no result yet, because tiles have no plates yet
+        std::size_t inView = 0;     ///< number of tiles in view, hidden ones included
+        bool isAwaited = false;     ///< no result yet, because tiles have no plates yet
+        bool isForOneView = false;  ///< found anew, by an eye that is moving too fast for what was found before
         std::vector<std::size_t> withoutPlates;
         std::shared_ptr<const CoveredPicture> covered;  ///< null: there was no search
         const char* missing = nullptr;                  ///< the condition for a search; stays

@@ -38,8 +38,12 @@ public:
                   const glm::dvec3& eyes = glm::dvec3(0.0));
 
     /// Adds earth. A column hides bodies that are farther than its farthest corner by more than a depth step. Earth
-    /// beside or behind the eye is left out. Cost: some ten nanoseconds a column.
-    void add(const EarthColumns& columns);
+    /// beside or behind the eye is left out. `owner`: see restart(). Cost: some ten nanoseconds a column.
+    void add(const EarthColumns& columns, std::uint32_t owner = 0);
+
+    /// Takes the earth of these owners away. Then bodies may be asked for once more, from front to back. Cost: some
+    /// nanoseconds for each column that is left.
+    void restart(const std::vector<std::uint32_t>& without);
 
     /// Lines of sight below this position in the picture are never hidden: they may meet terrain in front of the near
     /// plane, which is not drawn. Default: minus infinity.
@@ -71,7 +75,7 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
-    /// Sorts all earth that was added, for hidesInAnyOrder(). Neither add() nor hides() may be called afterwards.
+    /// Sorts all earth that was added, for hidesInAnyOrder(). Neither add() nor hides() may be called before restart().
     void sort();
     /// Whether sort() was called.
     [[nodiscard]] bool isSorted() const noexcept { return !_firstSteps.empty(); }
@@ -99,6 +103,7 @@ private:
     struct Waiting {
         Wall wall;
         std::int32_t next;  // in the list; kNone: the last one
+        std::uint32_t owner;
     };
     static constexpr std::int32_t kNone = -1;
 
@@ -114,6 +119,7 @@ private:
     [[nodiscard]] static std::size_t rangeOf(double distance) noexcept;
     [[nodiscard]] double farthestBefore(const Outline& body) const noexcept;
     [[nodiscard]] Strips stripsOf(const Outline& body) const noexcept;
+    void wait(Waiting& waiting);
     void use(double distance);
     void useList(std::size_t range, double distance);
     [[nodiscard]] std::size_t stripAt(double x, double toRight) const noexcept;
