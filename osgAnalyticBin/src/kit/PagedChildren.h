@@ -9,6 +9,8 @@
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
 
 /// Whether a child of a PagedLOD comes from a file, loaded or not.
@@ -25,6 +27,17 @@ namespace osgAnalyticBin {
 /// Whether a level is one of these, loaded or not.
 [[nodiscard]] inline bool isInRange(const osg::LOD& node, unsigned int level, float distance) {
     return distance >= node.getMinRange(level) && distance < node.getMaxRange(level);
+}
+
+/// Whether some level is due at every distance, or size on screen, that occurs.
+[[nodiscard]] inline bool isAlwaysDue(const osg::LOD& node) {
+    constexpr float kMost = 1e9f;
+    float end = 0.0f;  // of what is known to be in a range
+    for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+        for (const osg::LOD::MinMaxPair& range : node.getRangeList())
+            if (range.first <= end) end = std::max(end, range.second);
+    }
+    return end >= kMost;
 }
 
 }  // namespace osgAnalyticBin

@@ -349,6 +349,9 @@ FAULTS = [
     Fault("a vertical scale moves the middles of spheres", "src/kit/install/ContentWatch.cpp",
           "bound.expandRadiusBy(scaledTerrainOf(node));", "bound.expandBy(scaledTerrainOf(node));", NODE, "VerticalScale.*"),
 
+    Fault("levels chosen by pixels, or below transforms, are always due", "src/kit/cull/SelectionEvidence.cpp",
+          "byDistance ? due == 0 : !isAlwaysDue(node);", "byDistance && due == 0;", NODE, "HoledGlobe.*"),
+
     # terrain that hides terrain
     Fault("region: meridians do not converge", "src/core/horizon/CoveredRegion.cpp", "(data.equatorial * std::sin(",
           "(std::sin(", CORE, "CoveredRegion.*"),

@@ -72,6 +72,23 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesAMeshAway) {
     }
 }
 
+// Where OSG chooses by pixels the kit does not know what it will choose, but it knows whether there is a choice.
+TEST(HoledGlobe, IsSeenThroughWhereNoLevelIsDue) {
+    for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
+        MeshGlobe globe;
+        installBins(*globe.root);
+        osg::PagedLOD& tile = *globe.tiles[19];
+        tile.setRangeMode(mode);
+        tile.setRange(0, 0.0f, 1e10f);
+        EXPECT_FALSE(globe.drawsAntipode());
+        tile.setRange(0, 1e9f, 1e10f);
+        tile.setRange(1, 0.0f, 1.0f);
+        EXPECT_TRUE(globe.drawsAntipode());
+        tile.setRange(0, 1.0f, 1e10f);
+        EXPECT_FALSE(globe.drawsAntipode());
+    }
+}
+
 TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
     MeshGlobe globe;
     installBins(*globe.root);

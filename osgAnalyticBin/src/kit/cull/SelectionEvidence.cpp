@@ -141,7 +141,8 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
         const Scoped awaited(_isFinerAwaited, byDistance);
         searchChild(node, children - 1, tile, false);
     }
-    if (((byDistance && due == 0) || children == 0) && !isBeside(tile)) doubt();
+    const bool isNoneDue = byDistance ? due == 0 : !isAlwaysDue(node);
+    if ((isNoneDue || children == 0) && !isBeside(tile)) doubt();
 }
 
 void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel) {
