@@ -828,7 +828,7 @@ FAULTS = [
           "numbers.altitude.lower >= -_search.occluder ||",
           "numbers.altitude.lower < -_search.occluder ||", NODE, "ShownDepth.*"),
     Fault("walk: all meshes are drawn", "src/kit/cull/SelectionEvidence.cpp",
-          "return isDrawnWhole(*tile.mesh, *tile.tile, tile.member);", "return tile.mesh || this;", NODE, "Evidence.*"),
+          "return isDrawnWhole(*tile.mesh, *tile.tile, tile.member);", "return tile.mesh || this;", NODE, "Changes.*:Evidence.*"),
     Fault("walk: meshes are looked at once there was a hole alone", "src/kit/cull/SelectionEvidence.cpp",
           "if (_search.isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();", "", NODE, "Evidence.*:HoledGlobe.*"),
     Fault("walk: tiles of a group are kept whose sphere OSG culls", "src/kit/cull/SelectionWalk.cpp",
