@@ -28,6 +28,15 @@ enum class Ground {
     Unknown   // a tile may have a hole, or is left out as a small feature
 };
 
+// By OSG. osgTerrain tiles have a sphere about their posts, and another one about their mesh.
+bool isLeftOutAsSmall(osg::CullingSet& cullingSet, const ShownTile& shown) {
+    if (!(cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING)) return false;
+    constexpr double kOfMesh = 0.5;
+    const osg::BoundingSphere& bound = shown.mesh->getBound();
+    const double radius = (shown.tile->getTerrainShape() ? kOfMesh : 1.0) * static_cast<double>(bound.radius());
+    return isSmall(cullingSet, {osg::Vec3d(bound.center()) * shown.tile->getLocalToEcef(), static_cast<float>(radius)});
+}
+
 // Notes the tiles that are shown.
 Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& allShown,
                 std::vector<FoundOcclusion::Tile>& tiles, std::vector<std::size_t>& withoutPlates) {
@@ -44,14 +53,8 @@ Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& al
             ground = Ground::Awaited;
             continue;
         }
-        const core::GroundPlates* const plates = installed->plates().get();
-        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return Ground::Unknown;
-        // osgTerrain tiles have a sphere about their posts, and another one about their mesh
-        constexpr double kOfMesh = 0.5;
-        const osg::BoundingSphere& bound = shown.mesh->getBound();
-        const double radius = (tile.getTerrainShape() ? kOfMesh : 1.0) * static_cast<double>(bound.radius());
-        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), static_cast<float>(radius)}))
-            return Ground::Unknown;
+        if (!installed->plates()) return Ground::Unknown;
+        if (isLeftOutAsSmall(cullingSet, shown)) return Ground::Unknown;
         tiles.push_back({&tile, shown.mesh, shown.isSure, installed->numberOfPlates(), tile.getBin().bin(),
                          tile.getBin().margin(), tile.getBinLow(), tile.getBinHigh()});
     }

@@ -105,14 +105,32 @@ bool SelectionWalk::isPassedOver(const osg::Group& group, const TileFamily& fami
     return BoundWatch::isOn(group);
 }
 
-// Whether a sphere is about the eye or above it.
-bool SelectionWalk::isOverEye(const osg::Vec3d& center, double radius) {
+const SelectionWalk::StandingEye& SelectionWalk::standing() {
     const core::Ellipsoid& ellipsoid = _view.ellipsoid;
     if (!_standing)
         _standing = {toOsg(ellipsoid.toEcef(*_search.place)),
                      toOsg(ellipsoid.up(_search.place->latitude, _search.place->longitude))};
-    const osg::Vec3d toCenter = center - _standing->at;
-    return (toCenter - _standing->up * std::max(0.0, toCenter * _standing->up)).length() <= radius;
+    return *_standing;
+}
+
+// Whether a sphere is about the eye or above it.
+bool SelectionWalk::isOverEye(const osg::Vec3d& center, double radius) {
+    const auto& [at, up] = standing();
+    const osg::Vec3d toCenter = center - at;
+    return (toCenter - up * std::max(0.0, toCenter * up)).length() <= radius;
+}
+
+// As isAbout(), by what is at hand. Requires: a place.
+bool SelectionWalk::mayBeAbout(const TileBlock::Slot& tile) {
+    constexpr double kRounding = 1e-6;  // of numbers in floats, and more
+    const double altitude = _search.place->altitude;
+    if (altitude > tile.altitude.upper) return false;
+    // an eye below the bin is not in its sphere
+    const bool isInSphere = altitude >= tile.altitude.lower && _view.shape.techniqueMargin == 0.0;
+    if (!isInSphere || !tile.column.valid()) return true;
+    const osg::Vec3d center = tile.column.center();
+    const double radius = tile.column.radius();
+    return (standing().at - center).length() <= radius + kRounding * (center.length() + radius);
 }
 
 // Does not read tiles that are neither kept nor searched.
@@ -220,8 +238,7 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     const TileBlock& block = siblings.family.block();
     const FamilyTile& member = siblings.family.tile(slot);
     const TileBlock::Slot& numbers = block[slot];
-    const bool isAboutEye =
-        siblings.mayHoldEye && _search.place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
+    const bool isAboutEye = siblings.mayHoldEye && mayBeAbout(numbers) && isAbout(*member.callback());
     const bool isSearched = _searches && (hasBit(siblings.inView, number) || isAboutEye ||
                                           (hasBit(siblings.withColumns, number) && isColumnSeen(numbers, block, slot)));
     const Scoped searches(_searches, isSearched);

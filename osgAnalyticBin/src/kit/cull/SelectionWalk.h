@@ -94,6 +94,11 @@ private:
         bool mayHoldEye = false;
     };
 
+    struct StandingEye {
+        osg::Vec3d at, up;
+    };
+    [[nodiscard]] const StandingEye& standing();
+
     void selectChildren(osg::Group& group, const TileFamily* family);
     void selectFamily(osg::Group& group, const TileFamily& family);
     [[nodiscard]] std::uint64_t keptOf(const TileFamily& family, unsigned int first,
@@ -128,6 +133,7 @@ private:
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
     [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);
+    [[nodiscard]] bool mayBeAbout(const TileBlock::Slot& tile);
     [[nodiscard]] bool isColumnSeen(const TileBlock::Slot& numbers, const TileBlock& block, unsigned int slot) const;
     [[nodiscard]] osg::BoundingSphere sphereOf(const osg::Node& node) const;
     [[nodiscard]] bool isLeftOut(const osg::Node& node) const;
@@ -155,10 +161,7 @@ private:
     const bool _isPlainVisitor;
     const osg::Polytope::PlaneList& _planes;
     bool _testsSmallFeatures = false;
-    struct StandingEye {
-        osg::Vec3d at, up;
-    };
-    std::optional<StandingEye> _standing;  // of the eye, once it is needed
+    std::optional<StandingEye> _standing;  // once it is needed
 
     // Of the node where the walk is:
     bool _searches = false;                  // for evidence

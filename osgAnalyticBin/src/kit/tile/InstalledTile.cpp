@@ -3,6 +3,7 @@
 
 #include "InstalledTile.h"
 
+#include <cmath>
 #include <mutex>
 
 namespace osgAnalyticBin {
@@ -42,7 +43,8 @@ void InstalledTile::tellFamily() {
 
 void InstalledTile::setPlates(std::shared_ptr<const core::GroundPlates> plates) {
     static std::atomic<std::uint64_t> last{0};
-    _plates = std::move(plates);
+    const bool isWhole = plates && std::isfinite(plates->least(1, 0, 0));
+    _plates = isWhole ? std::move(plates) : nullptr;
     _numberOfPlates = ++last;
 }
 

@@ -164,7 +164,8 @@ public:
     /// Where the tile belongs: the rectangle of its mesh when it was installed. Empty: not known.
     [[nodiscard]] const core::GeodeticBin& place() const { return _place; }
 
-    /// Sets the lowest altitudes of the tile's own mesh, by cells; null: they cannot be found.
+    /// Sets the lowest altitudes of the tile's own mesh, by cells; null: they cannot be found. Where one is not known
+    /// none is kept.
     void setPlates(std::shared_ptr<const core::GroundPlates> plates);
     /// Returns: null when they are unknown or the mesh has changed since. Plates do not change: other threads may keep
     /// them.
