@@ -349,6 +349,8 @@ FAULTS = [
     Fault("a vertical scale moves the middles of spheres", "src/kit/install/ContentWatch.cpp",
           "bound.expandRadiusBy(scaledTerrainOf(node));", "bound.expandBy(scaledTerrainOf(node));", NODE, "VerticalScale.*"),
 
+    Fault("eyes are about tiles near their middle alone", "src/kit/cull/SelectionWalk.cpp",
+          "const double radius = tile.column.radius();", "const double radius = 0.3 * tile.column.radius();", NODE, "UndergroundEyes.*"),
     Fault("levels chosen by pixels, or below transforms, are always due", "src/kit/cull/SelectionEvidence.cpp",
           "byDistance ? due == 0 : !isAlwaysDue(node);", "byDistance && due == 0;", NODE, "HoledGlobe.*"),
 
