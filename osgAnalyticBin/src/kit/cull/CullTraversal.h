@@ -57,6 +57,7 @@ struct DatabaseView {
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
     const core::HorizonEye* fileEye = nullptr;    // tiles behind its horizon ask for no files; null: all tiles ask
     Gain* gain = nullptr;                         // null: not counted in this view
+    bool isCold = true;                           // what is read is hardly in the processor's caches
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored

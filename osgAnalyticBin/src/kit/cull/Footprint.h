@@ -38,7 +38,8 @@ public:
     /// Notes what is read of one tile. What is noted already is not written again.
     class Notes {
     public:
-        explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
+        /// `isOn`: whether anything is noted.
+        Notes(const Footprint& footprint, bool isOn) : _runs(footprint._runs), _next(isOn ? 0 : kRuns) {}
         ~Notes() {
             if (_next < kRuns) note(0);
         }
@@ -69,7 +70,7 @@ public:
         }
 
         std::array<std::atomic<std::uintptr_t>, kRuns>& _runs;
-        std::size_t _next = 0;
+        std::size_t _next;
     };
 
 private:

@@ -147,7 +147,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
         isChanged = isChanged || verdicts.lacksTiles;
         siblings.kept = _keeps ? keptOf(family, first, verdicts) : 0;
         if (first < family.size()) describe(siblings, family.block().partFrom(first));
-        forEachBit(siblings.kept,
+        forEachBit(_view.isCold ? siblings.kept : 0,
                    [&](unsigned int number) { family.tile(first + number).fetch(family.node(first + number)); });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         const std::uint64_t passedOver = verdicts.members & ~(siblings.kept | siblings.searched);
@@ -262,7 +262,7 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
     if (way == Way::Mesh) {
-        Footprint::Notes notes(member.footprint());
+        Footprint::Notes notes(member.footprint(), _view.isCold);
         member.noteMesh(notes);
     }
     const bool waits = _view.fileEye && block.isHidden(slot, *_view.fileEye);
@@ -298,7 +298,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     osg::Node& level = *node.getChild(*shown);
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
-    Footprint::Notes notes(tile.member->footprint());
+    Footprint::Notes notes(tile.member->footprint(), _view.isCold);
     notes.add(ranges.data(), ranges.size() * sizeof ranges[0]);
     notes.add(&node.getFileName(0), node.getNumFileNames() * sizeof(osg::PagedLOD::PerRangeData));
     notes.addChildren(node);

@@ -18,6 +18,7 @@
 #include <osgTerrain/Terrain>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -155,7 +156,16 @@ public:
     void update();
 
     /// Call in cull traversals: they notice most of what there is to do.
-    void noteCull() { _wasCulled.store(true, std::memory_order_relaxed); }
+    void noteCull() {
+        _wasCulled.store(true, std::memory_order_relaxed);
+        _lastCull.store(now(), std::memory_order_relaxed);
+    }
+    /// Whether other programs, or the drawing of a frame, may have driven what its culls read out of the processor's
+    /// caches: the last one has ended a while ago. In a frame with several views only the first one is cold.
+    [[nodiscard]] bool isCold() const {
+        constexpr Clock::rep kWhile = std::chrono::duration_cast<Clock::duration>(std::chrono::milliseconds(1)).count();
+        return now() - _lastCull.load(std::memory_order_relaxed) >= kWhile;
+    }
     /// Whether there was a cull traversal since this was last asked.
     [[nodiscard]] bool takeCull() { return _wasCulled.exchange(false, std::memory_order_relaxed); }
 
@@ -167,6 +177,9 @@ protected:
     ~Database() override = default;
 
 private:
+    using Clock = std::chrono::steady_clock;
+    [[nodiscard]] static Clock::rep now() { return Clock::now().time_since_epoch().count(); }
+
     using TileKey = std::pair<std::string, std::size_t>;
     struct OnItsWay {
         osg::observer_ptr<osg::Node> node;
@@ -187,6 +200,7 @@ private:
     const osg::Node* _root = nullptr;
     bool _isCulling = false;
     std::atomic<bool> _wasCulled{false};
+    std::atomic<Clock::rep> _lastCull{0};  // when it ended
     std::atomic<unsigned int> _arrivals{0};
     std::atomic<bool> _arePlatesWanted{false};
     std::atomic<unsigned int> _found{0};  // a bit for each Finding

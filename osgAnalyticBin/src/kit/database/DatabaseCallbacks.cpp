@@ -442,6 +442,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
     Gain gain;
     if (turn == DatabaseRest::Turn::BinsCounted) view.gain = &gain;
+    view.isCold = _database->isCold();
     const auto region = _database->region();
     if (region) view.region = &*region;
     const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(view, *_database, options);
