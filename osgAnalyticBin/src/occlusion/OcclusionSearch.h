@@ -92,9 +92,9 @@ struct FoundOcclusion {
     void aimAlong(const core::Frame& from, const glm::dvec3& step, bool isAhead);
 
     /// Takes over the tiles that are shown now, if the result holds with them. Tiles that hid nothing may have gone.
-    /// Those that hid others may have gone out of view; what is left in view is asked for again without the earth of
-    /// others. Tiles may have come beyond the reach of the near plane: they hide nothing, and are not hidden. Source:
-    /// doc/theory/occlusion.md, section 5. Returns: whether the result holds.
+    /// Those that hid others may have gone out of view. Where one in view has gone, its earth is taken away, and hidden
+    /// tiles are tested once more. Tiles may have come beyond the reach of the near plane: they hide nothing, and are
+    /// not hidden. Source: doc/theory/occlusion.md, section 5. Returns: whether the result holds.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
 
     /// Whether the box of eyes contains this one.

@@ -278,7 +278,7 @@ public:
         hidden.inView = countInView(*_found, shown);
         hidden.covered = _found->covered;
         _found->lastEye = view.eye;
-        _found->lastAcross = PictureSpan::of(*lines, _found->eye).value_or(_found->span).across;
+        _found->lastAcross = spanThen.value_or(_found->span).across;
         return hidden;
     }
     [[nodiscard]] bool hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) override {
@@ -316,7 +316,7 @@ private:
         return left;
     }
 
-    // What was found in its stead serves from this view on.
+    // A new result serves from this view on. `spanThen`: in the picture of the old one; afterwards, of the new one.
     void takeOver(FoundPtr found, const LevelView& lines, std::optional<PictureSpan>& spanThen) {
         const auto span = PictureSpan::of(lines, found->eye);
         // the same turn in the other picture

@@ -182,7 +182,7 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
     first.number = {0, 1, 2, 3};
     first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
-    // no earth is left that hides it when that of others is taken away
+    // the buffer has no earth, so that a second test does not find it hidden
     first.hidden = {{1, {100.0, {0.0, 0.1}, {0.0, 0.1}, 100.0, false}}};
     // from the south, looking north
     first.eye = {{7e6, 0.0, -5e6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};

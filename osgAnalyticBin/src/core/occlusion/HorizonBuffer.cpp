@@ -28,8 +28,7 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
       _perStep(1.0 / _picture.step),
       _depthStep(depthStep) {
     static_assert(kStrips == kernels::StripNumbers::kStrips && std::tuple_size_v<Wall> == WallRow::kCount);
-    _lower.fill(kInfinity);
-    _upper.fill(-kInfinity);
+    coverNothing();
     _lists.fill(kNone);
     _walls.reserve(1024);
 }
@@ -53,6 +52,11 @@ void HorizonBuffer::add(const EarthColumns& columns, std::uint32_t owner) {
     }
 }
 
+void HorizonBuffer::coverNothing() {
+    _lower.fill(kInfinity);
+    _upper.fill(-kInfinity);
+}
+
 void HorizonBuffer::wait(Waiting& waiting) {
     const std::size_t range = rangeOf(waiting.wall[WallRow::Farthest]);
     waiting.next = std::exchange(_lists[range], static_cast<std::int32_t>(&waiting - _walls.data()));
@@ -64,8 +68,7 @@ void HorizonBuffer::restart(const std::vector<std::uint32_t>& without) {
         return std::find(without.begin(), without.end(), waiting.owner) != without.end();
     };
     _walls.erase(std::remove_if(_walls.begin(), _walls.end(), isTakenAway), _walls.end());
-    _lower.fill(kInfinity);
-    _upper.fill(-kInfinity);
+    coverNothing();
     _lists.fill(kNone);
     _firstSteps.clear();
     _reached = 0.0;
@@ -199,8 +202,7 @@ bool HorizonBuffer::hides(const Outline& body) {
 void HorizonBuffer::sort() {
     std::sort(_walls.begin(), _walls.end(),
               [](const Waiting& a, const Waiting& b) { return a.wall[WallRow::Farthest] < b.wall[WallRow::Farthest]; });
-    _lower.fill(kInfinity);
-    _upper.fill(-kInfinity);
+    coverNothing();
     _firstSteps.assign(kStrips + 1, 0);
     std::vector<std::pair<std::size_t, Step>> steps;  // with their strips, by distance
     for (const auto& [wall, next, owner] : _walls) {

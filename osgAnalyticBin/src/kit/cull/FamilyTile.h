@@ -85,7 +85,7 @@ public:
     [[nodiscard]] bool isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
                                     const StateRules& rules) const;
 
-    /// Prefetches the tile, a node without levels of detail too, and what the walk read when it last came there.
+    /// Prefetches the tile's node, and what the walk read when it last came there.
     void fetch(const osg::Node& tile) const {
         constexpr std::uintptr_t kLines = 6;
         prefetchLines(reinterpret_cast<std::uintptr_t>(&tile), kLines);

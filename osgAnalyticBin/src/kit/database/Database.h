@@ -160,8 +160,8 @@ public:
         _wasCulled.store(true, std::memory_order_relaxed);
         _lastCull.store(now(), std::memory_order_relaxed);
     }
-    /// Whether other programs, or the drawing of a frame, may have driven what its culls read out of the processor's
-    /// caches: the last one has ended a while ago. In a frame with several views only the first one is cold.
+    /// Whether the last cull ended a while ago, so that the processor's caches may not hold what culls read. Of several
+    /// views in a frame only the first one is cold.
     [[nodiscard]] bool isCold() const {
         constexpr Clock::rep kWhile = std::chrono::duration_cast<Clock::duration>(std::chrono::milliseconds(1)).count();
         return now() - _lastCull.load(std::memory_order_relaxed) >= kWhile;

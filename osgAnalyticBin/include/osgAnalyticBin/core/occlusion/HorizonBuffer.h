@@ -41,8 +41,8 @@ public:
     /// beside or behind the eye is left out. `owner`: see restart(). Cost: some ten nanoseconds a column.
     void add(const EarthColumns& columns, std::uint32_t owner = 0);
 
-    /// Takes the earth of these owners away. Then bodies may be asked for once more, from front to back. Cost: some
-    /// nanoseconds for each column that is left.
+    /// Takes away the earth of these owners. hides() then begins anew with the nearest body. Cost: some nanoseconds for
+    /// each column that is left.
     void restart(const std::vector<std::uint32_t>& without);
 
     /// Lines of sight below this position in the picture are never hidden: they may meet terrain in front of the near
@@ -75,7 +75,8 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
-    /// Sorts all earth that was added, for hidesInAnyOrder(). Neither add() nor hides() may be called before restart().
+    /// Sorts all earth that was added, for hidesInAnyOrder(). After it add() and hides() may not be called until
+    /// restart() has been.
     void sort();
     /// Whether sort() was called.
     [[nodiscard]] bool isSorted() const noexcept { return !_firstSteps.empty(); }
@@ -119,6 +120,7 @@ private:
     [[nodiscard]] static std::size_t rangeOf(double distance) noexcept;
     [[nodiscard]] double farthestBefore(const Outline& body) const noexcept;
     [[nodiscard]] Strips stripsOf(const Outline& body) const noexcept;
+    void coverNothing();
     void wait(Waiting& waiting);
     void use(double distance);
     void useList(std::size_t range, double distance);
