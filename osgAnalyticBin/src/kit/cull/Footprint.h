@@ -38,8 +38,7 @@ public:
     /// Notes what is read of one tile. What is noted already is not written again.
     class Notes {
     public:
-        /// `isOn`: whether anything is noted.
-        Notes(const Footprint& footprint, bool isOn) : _runs(footprint._runs), _next(isOn ? 0 : kRuns) {}
+        explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
         ~Notes() {
             if (_next < kRuns) note(0);
         }
@@ -70,7 +69,7 @@ public:
         }
 
         std::array<std::atomic<std::uintptr_t>, kRuns>& _runs;
-        std::size_t _next;
+        std::size_t _next = 0;
     };
 
 private:

@@ -261,8 +261,8 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
-    if (way == Way::Mesh) {
-        Footprint::Notes notes(member.footprint(), _view.isCold);
+    if (way == Way::Mesh && _view.isCold) {
+        Footprint::Notes notes(member.footprint());
         member.noteMesh(notes);
     }
     const bool waits = _view.fileEye && block.isHidden(slot, *_view.fileEye);
@@ -298,21 +298,32 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     osg::Node& level = *node.getChild(*shown);
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
-    Footprint::Notes notes(tile.member->footprint(), _view.isCold);
-    notes.add(ranges.data(), ranges.size() * sizeof ranges[0]);
-    notes.add(&node.getFileName(0), node.getNumFileNames() * sizeof(osg::PagedLOD::PerRangeData));
-    notes.addChildren(node);
-    if (!isMesh && isPaged(node, *shown)) {
+    const bool isFiner = !isMesh && isPaged(node, *shown);
+    const TileFamily* const family = isFiner ? inlineFamily(level) : nullptr;
+    if (_view.isCold) noteFootprint(node, *tile.member, level, family);
+    if (isFiner) {
         doubtLevelsOf(tile);
-        selectLevel(level, notes);
+        // OSG's test of the level's sphere is left out, because the tiles in it are tested
+        family ? selectInside(*level.asGroup(), family) : selectNode(level);
         return true;
     }
-    if (isMesh) tile.member->noteMesh(notes);
     Tile here = tile;
     here.kept = keep(level, tile.member, isMesh ? Way::Mesh : Way::Plain);
     here.isEnteredByOsg = !isMesh || level.getCullCallback();
     if (_searches) show(here, level, true);
     return true;
+}
+
+// What was read of a tile on the way to the level that it shows. `family`: of the level; null: none.
+void SelectionWalk::noteFootprint(const osg::PagedLOD& node, const FamilyTile& member, const osg::Node& level,
+                                  const TileFamily* family) {
+    const osg::LOD::RangeList& ranges = node.getRangeList();
+    Footprint::Notes notes(member.footprint());
+    notes.add(ranges.data(), ranges.size() * sizeof ranges[0]);
+    notes.add(&node.getFileName(0), node.getNumFileNames() * sizeof(osg::PagedLOD::PerRangeData));
+    notes.addChildren(node);
+    if (member.isMesh(level)) member.noteMesh(notes);
+    if (family) family->noteMemory(notes, *level.asGroup());
 }
 
 // The family of a plain group to which OSG's traversal would come next.
@@ -324,14 +335,6 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
     if (!isPossible) return nullptr;
     const auto* const family = static_cast<const TileFamily*>(callback->asNodeCallback());
     return family->culls(*node.asGroup(), _view) ? family : nullptr;
-}
-
-// A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level, Footprint::Notes& notes) {
-    const TileFamily* const family = inlineFamily(level);
-    if (!family) return selectNode(level);
-    family->noteMemory(notes, *level.asGroup());
-    selectInside(*level.asGroup(), family);
 }
 
 // The children of a plain group, which is entered.

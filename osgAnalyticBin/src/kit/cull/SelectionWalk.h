@@ -110,7 +110,8 @@ private:
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
     void selectInside(osg::Group& group, const TileFamily* family);
-    void selectLevel(osg::Node& level, Footprint::Notes& notes);
+    static void noteFootprint(const osg::PagedLOD& node, const FamilyTile& member, const osg::Node& level,
+                              const TileFamily* family);
     void searchNode(osg::Node& node);
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);
