@@ -79,6 +79,66 @@ std::shared_ptr<const CoveredPicture> coveredIn(const FoundOcclusion& found, con
     return picture;
 }
 
+// Terrain that the near plane may cut.
+struct NearTerrain {
+    double top = -HUGE_VAL;     // of its picture; infinite where it may be at the eye
+    double nearest = HUGE_VAL;  // metres from the eye, roughly
+};
+
+// The greatest y = up / forward of a polygon's points in front of the eye, which are seen from the eye. It is at a
+// corner: along a segment y rises or falls.
+double topOf(const std::vector<glm::dvec3>& polygon, const core::Frame& eye, const glm::dvec3& margin) {
+    double top = -HUGE_VAL, highest = -HUGE_VAL, nearest = HUGE_VAL;
+    for (const glm::dvec3& point : polygon) {
+        const double height = glm::dot(point, eye.z) + margin.z, ahead = glm::dot(point, eye.y);
+        highest = std::max(highest, height);
+        nearest = std::min(nearest, ahead - margin.y);
+        const double distance = height < 0.0 ? ahead + margin.y : ahead - margin.y;
+        if (distance > 0.0) top = std::max(top, height / distance);
+    }
+    return highest >= 0.0 && !(nearest > 0.0) ? HUGE_VAL : top;
+}
+
+// Of a mesh that may be `ofTile` metres away from its place.
+NearTerrain nearTerrain(const core::EcefMesh& mesh, double ofTile, const FoundOcclusion& found) {
+    NearTerrain terrain;
+    const glm::dvec3 margin = found.eyes + ofTile;
+    const double reach = reachOf(found);
+    const auto& [eye, right, ahead, up] = found.eye;
+    // inside is where p.normal >= offset
+    struct HalfSpace {
+        glm::dvec3 normal;
+        double offset;
+    };
+    const auto [left, most] = found.span.across;
+    const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin.y}, HalfSpace{-ahead, -reach - margin.y},
+                                         HalfSpace{right - left * ahead, -margin.x - margin.y * std::abs(left)},
+                                         HalfSpace{most * ahead - right, -margin.x - margin.y * std::abs(most)}};
+    std::vector<double> forward(mesh.size());
+    for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
+    std::vector<glm::dvec3> polygon, clipped;
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const std::uint32_t* const corners = &mesh.triangles[i];
+        const double p = forward[corners[0]], q = forward[corners[1]], r = forward[corners[2]];
+        if (std::min(p, std::min(q, r)) > reach + margin.y || std::max(p, std::max(q, r)) < -margin.y) continue;
+        polygon.clear();
+        for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
+        for (const HalfSpace& half : wedge) {
+            clipped.clear();
+            for (std::size_t k = 0; k < polygon.size(); ++k) {
+                const glm::dvec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+                const double da = glm::dot(a, half.normal) - half.offset, db = glm::dot(b, half.normal) - half.offset;
+                if (da >= 0.0) clipped.push_back(a);
+                if ((da < 0.0) != (db < 0.0)) clipped.push_back(a + da / (da - db) * (b - a));
+            }
+            polygon.swap(clipped);
+        }
+        terrain.top = std::max(terrain.top, topOf(polygon, found.eye, margin));
+        for (const glm::dvec3& point : polygon) terrain.nearest = std::min(terrain.nearest, glm::length(point));
+    }
+    return terrain;
+}
+
 class OcclusionSearch {
 public:
     OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, FoundPtr found)
@@ -115,9 +175,12 @@ public:
     // Returns: null where the near plane may cut terrain at the eye.
     [[nodiscard]] FoundPtr run() {
         NearTerrain terrain;
-        for (const NearMesh& near : _near) add(*near.mesh, reachOf(*_found), _found->eyes + near.margin, terrain);
+        for (const NearMesh& near : _near) {
+            const NearTerrain one = nearTerrain(*near.mesh, near.margin, *_found);
+            terrain = {std::max(terrain.top, one.top), std::min(terrain.nearest, one.nearest)};
+        }
         if (!(terrain.top < HUGE_VAL)) return nullptr;
-        if (_found->nearReach > 0.0) _buffer.setLowest(terrain.top);
+        if (_found->nearReach > 0.0) (void)_buffer.raiseLowest(terrain.top);
         // a search before this one may have supposed another near plane
         _found->number.clear();
         _found->findings.clear();
@@ -202,63 +265,6 @@ private:
         candidate.isMeshAlone = true;
     }
 
-    // Terrain that the near plane may cut.
-    struct NearTerrain {
-        double top = -HUGE_VAL;     // of its picture; infinite where it may be at the eye
-        double nearest = HUGE_VAL;  // metres from the eye, roughly
-    };
-
-    // Triangles that may be `margin` metres away from their place, along each axis.
-    void add(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin, NearTerrain& terrain) const {
-        const auto& [eye, right, ahead, up] = _found->eye;
-        // inside is where p.normal >= offset
-        struct HalfSpace {
-            glm::dvec3 normal;
-            double offset;
-        };
-        const auto [left, most] = _found->span.across;
-        const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin.y}, HalfSpace{-ahead, -reach - margin.y},
-                                             HalfSpace{right - left * ahead, -margin.x - margin.y * std::abs(left)},
-                                             HalfSpace{most * ahead - right, -margin.x - margin.y * std::abs(most)}};
-        std::vector<double> forward(mesh.size());
-        for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
-        std::vector<glm::dvec3> polygon, clipped;
-        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-            const std::uint32_t* const corners = &mesh.triangles[i];
-            const double p = forward[corners[0]], q = forward[corners[1]], r = forward[corners[2]];
-            if (std::min(p, std::min(q, r)) > reach + margin.y || std::max(p, std::max(q, r)) < -margin.y) continue;
-            polygon.clear();
-            for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
-            for (const HalfSpace& half : wedge) {
-                clipped.clear();
-                for (std::size_t k = 0; k < polygon.size(); ++k) {
-                    const glm::dvec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-                    const double da = glm::dot(a, half.normal) - half.offset,
-                                 db = glm::dot(b, half.normal) - half.offset;
-                    if (da >= 0.0) clipped.push_back(a);
-                    if ((da < 0.0) != (db < 0.0)) clipped.push_back(a + da / (da - db) * (b - a));
-                }
-                polygon.swap(clipped);
-            }
-            terrain.top = std::max(terrain.top, topOf(polygon, margin));
-            for (const glm::dvec3& point : polygon) terrain.nearest = std::min(terrain.nearest, glm::length(point));
-        }
-    }
-
-    // The greatest y = up / forward of a polygon's points in front of the eye, which are seen from the eye. It is at a
-    // corner: along a segment y rises or falls.
-    [[nodiscard]] double topOf(const std::vector<glm::dvec3>& polygon, const glm::dvec3& margin) const {
-        double top = -HUGE_VAL, highest = -HUGE_VAL, nearest = HUGE_VAL;
-        for (const glm::dvec3& point : polygon) {
-            const double height = glm::dot(point, _found->eye.z) + margin.z, ahead = glm::dot(point, _found->eye.y);
-            highest = std::max(highest, height);
-            nearest = std::min(nearest, ahead - margin.y);
-            const double distance = height < 0.0 ? ahead + margin.y : ahead - margin.y;
-            if (distance > 0.0) top = std::max(top, height / distance);
-        }
-        return highest >= 0.0 && !(nearest > 0.0) ? HUGE_VAL : top;
-    }
-
     // Lines of sight that meet earth there come from above the terrain, not from beside it.
     [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const { return !_region || _region->contains(bin); }
 
@@ -340,14 +346,22 @@ bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
 
 }  // namespace
 
-bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
+bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
     if (tiles == shown) return true;
     // each tile that has come, or left the view, costs a look at all others
     constexpr std::size_t kMostCome = 64, kMostLeft = 16;
     const core::InverseFrame frame(eye);
     std::vector<std::uint32_t> now, lost;
     now.reserve(shown.size());
-    std::size_t next = 0;
+    std::size_t next = 0, near = 0;
+    double top = -HUGE_VAL;
+    const auto isKnown = [&](const Tile& tile) {
+        if (!earth || come.size() == kMostCome || !tile.isPlaced()) return false;
+        if (!isNear(tile, *earth, ellipsoid, frame, *this)) return true;
+        const auto mesh = ++near <= NearMeshes::kMostTiles ? meshOf(now.size()) : nullptr;
+        if (mesh) top = std::max(top, nearTerrain(*mesh, tile.margin, *this).top);
+        return mesh && top < HUGE_VAL;
+    };
     const auto passUntil = [&](std::size_t end) {
         for (; next < end; ++next) {
             if (number[next] == kCame || findings[number[next]] != Finding::Seen) continue;
@@ -362,8 +376,7 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         const auto from = tiles.begin() + static_cast<std::ptrdiff_t>(next);
         const auto same = static_cast<std::size_t>(std::find(from, tiles.end(), tile) - tiles.begin());
         if (same == tiles.size()) {
-            const bool mayCome = earth && come.size() < kMostCome && tile.isPlaced();
-            if (!mayCome || isNear(tile, *earth, ellipsoid, frame, *this)) return false;
+            if (!isKnown(tile)) return false;
             come.push_back(tile.bin);
             now.push_back(kCame);
         } else {
@@ -379,7 +392,8 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         return true;
     };
     leftView.erase(std::remove_if(leftView.begin(), leftView.end(), isOverOneThatCame), leftView.end());
-    if (!lost.empty()) forget(lost);
+    const bool isRaised = earth && earth->raiseLowest(top);
+    if (isRaised || !lost.empty()) forget(lost);
     isOutdated = isOutdated || !lost.empty() || !come.empty();
     number = std::move(now);
     tiles = shown;
@@ -396,7 +410,7 @@ void FoundOcclusion::forget(const std::vector<std::uint32_t>& numbers) {
     covered = coveredIn(*this, *earth);
 }
 
-void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step, bool isAhead) {
+void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step, int first) {
     constexpr double kViews = 16.0;  // to the middle of the way that is foreseen
     // Shares of the clearance: farther, terrain near the eye hides too little. What is straight ahead only grows.
     constexpr double kAhead = 0.25, kAside = 0.03;
@@ -410,7 +424,7 @@ void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step, b
     eye = from;
     eyes = glm::dvec3(rounding);
     if (!(length > rounding && views > 0.0)) return;
-    const double toMiddle = isAhead ? std::max(1.0, views) : views;
+    const double toMiddle = std::max(static_cast<double>(first), views);
     eye.origin += toMiddle * step;
     eyes += views * glm::abs(along) + kWobble * (toMiddle * glm::abs(along) + toMiddle * length);
 }

@@ -87,18 +87,21 @@ struct FoundOcclusion {
     double lastClearance = 0.0;   ///< metres from the eye to terrain in the picture, roughly
     /// @}
 
-    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view. `isAhead`: from
-    /// the next view on.
-    void aimAlong(const core::Frame& from, const glm::dvec3& step, bool isAhead);
+    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view. `first`: of the
+    /// views to be served, counted from this one.
+    OSGANALYTICBIN_EXPORT void aimAlong(const core::Frame& from, const glm::dvec3& step, int first);
 
     /// Takes over the tiles that are shown now, if the result holds with them. Tiles that hid nothing may have gone.
     /// Those that hid others may have gone out of view. Where one in view has gone, its earth is taken away, and hidden
-    /// tiles are tested once more. Tiles may have come beyond the reach of the near plane: they hide nothing, and are
-    /// not hidden. Source: doc/theory/occlusion.md, section 5. Returns: whether the result holds.
-    [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
+    /// tiles are tested once more. Tiles that have come hide nothing, and are not hidden; `meshOf` is asked for the
+    /// mesh of each, by its place in `shown`, that the near plane may cut. Source: doc/theory/occlusion.md, section 5.
+    /// Returns: whether the result holds.
+    using MeshOf = std::function<std::shared_ptr<const core::EcefMesh>(std::size_t)>;
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid,
+                                                    const MeshOf& meshOf);
 
     /// Whether the box of eyes contains this one.
-    [[nodiscard]] bool holds(const glm::dvec3& place) const;
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool holds(const glm::dvec3& place) const;
 
     /// Of one of `tiles`.
     [[nodiscard]] Finding finding(std::size_t i) const {

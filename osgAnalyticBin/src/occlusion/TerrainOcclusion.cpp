@@ -75,17 +75,17 @@ std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
 // Meshes around the eye may change: what was found is not believed for more views.
 constexpr int kMostUses = 64;
 
-// Prepares a search that serves as many of the next views as it can, if the camera goes on as it does. `isAhead`: this
-// view is not among them.
+// Prepares a search that serves as many views as it can, if the camera goes on as it does. `first`: of these views,
+// counted from this one.
 void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, const PictureSpan& span,
-         const std::optional<PictureSpan>& spanThen, bool isAhead) {
+         const std::optional<PictureSpan>& spanThen, int first) {
     constexpr double kViews = 8.0;       // for which a turn is foreseen
     constexpr double kMostTurned = 0.1;  // of the picture's width
     // the vertical turns as the eye moves
     constexpr double kLeastTurned = 1e-3;
     const glm::dvec3 step = eye - found.lastEye;
     const bool goesOn = spanThen && !found.isJump(step);
-    found.aimAlong(view.frameAt(eye), goesOn ? step : glm::dvec3(0.0), isAhead);
+    found.aimAlong(view.frameAt(eye), goesOn ? step : glm::dvec3(0.0), first);
     found.span = span;
     found.span.drawing *= 1.25;
     found.span.depthStep *= 1.25;
@@ -189,9 +189,9 @@ std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& l
     return std::nullopt;
 }
 
-// What a search of this view begins with.
+// What a search in this view begins with. `first`: as for aim().
 FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const LevelView& lines,
-               const std::optional<PictureSpan>& spanThen, bool isAhead) {
+               const std::optional<PictureSpan>& spanThen, int first) {
     const auto span = PictureSpan::of(lines, lines.frameAt(view.eye));
     if (!span) return nullptr;
     auto found = std::make_unique<FoundOcclusion>();
@@ -199,28 +199,35 @@ FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const
     found->lastAcross = last.lastAcross;
     found->lastClearance = last.lastClearance;
     found->neededReach = last.neededReach;
-    aim(*found, lines, view.eye, *span, spanThen, isAhead);
+    aim(*found, lines, view.eye, *span, spanThen, first);
     found->tiles = last.shown;
     found->region = regionOf(view);
     return found;
 }
 
-// Whether what was found will not serve the next views, if the camera goes on as it does.
-bool isNearlyUsedUp(const FoundOcclusion& found, const glm::dvec3& eye, const core::Interval& across) {
-    constexpr double kViews = 2.0;
-    const core::Interval then{across.lower + kViews * std::min(0.0, across.lower - found.lastAcross.lower),
-                              across.upper + kViews * std::max(0.0, across.upper - found.lastAcross.upper)};
-    return found.uses + static_cast<int>(kViews) >= kMostUses || !found.holds(eye + kViews * (eye - found.lastEye)) ||
-           !found.span.across.contains(then);
+// How many of the next views, up to kForeseen, what was found will serve, if the camera goes on as it does.
+constexpr int kForeseen = 2;
+int viewsLeft(const FoundOcclusion& found, const glm::dvec3& eye, const core::Interval& across) {
+    int views = 0;
+    const auto serves = [&](int view) {
+        const core::Interval then{across.lower + view * std::min(0.0, across.lower - found.lastAcross.lower),
+                                  across.upper + view * std::max(0.0, across.upper - found.lastAcross.upper)};
+        return found.uses + view < kMostUses && found.holds(eye + static_cast<double>(view) * (eye - found.lastEye)) &&
+               found.span.across.contains(then);
+    };
+    while (views < kForeseen && serves(views + 1)) ++views;
+    return views;
 }
 
 // What is hidden by what was found before, if that holds for this view. `span`: of the view in the picture.
 std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& view, const LevelView& lines,
-                              const std::vector<ShownTile>& shown, const std::optional<PictureSpan>& span) {
+                              const std::vector<ShownTile>& shown, const std::optional<PictureSpan>& span,
+                              NearMeshes& nearMeshes) {
+    const auto meshOf = [&](std::size_t i) { return nearMeshes.meshOf(*shown[i].tile, *shown[i].mesh); };
     const bool holds = found.uses++ < kMostUses && found.holds(view.eye) && span &&
                        found.span.across.contains(span->across) && span->drawing <= found.span.drawing &&
                        span->depthStep <= found.span.depthStep && found.region == regionOf(view) &&
-                       found.follow(view.planes, view.ellipsoid);
+                       found.follow(view.planes, view.ellipsoid, meshOf);
     if (!holds) return std::nullopt;
     LeftOut left = leftOut(view, lines, shown, found);
     if (left.reach > found.nearReach || (view.nearBound && isMuchNearer(left.reach, found))) return std::nullopt;
@@ -256,10 +263,10 @@ public:
         auto spanThen = PictureSpan::of(*lines, _found->eye);
         std::optional<LeftOut> left;
         if (_found->isOutdated) left = servedAhead(view, *lines, shown, spanThen);
-        if (!left) left = served(*_found, view, *lines, shown, spanThen);
+        if (!left) left = served(*_found, view, *lines, shown, spanThen, _nearMeshes);
         if (!left) left = servedAhead(view, *lines, shown, spanThen);
         if (!left) {
-            FoundPtr next = aimed(*_found, view, *lines, spanThen, false);
+            FoundPtr next = aimed(*_found, view, *lines, spanThen, 0);
             if (!next) return nothingFor(kSteep);
             left = search(view, *lines, shown, _nearMeshes, next);
             if (!left) {
@@ -271,8 +278,10 @@ public:
             hidden.isForOneView = _found->isJump(view.eye - _found->lastEye);
             takeOver(std::move(next), *lines, spanThen);
         }
-        if (!_ahead.valid() && spanThen && (_found->isOutdated || isNearlyUsedUp(*_found, view.eye, spanThen->across)))
-            searchAhead(view, *lines, shown, spanThen);
+        if (!_ahead.valid() && spanThen) {
+            const int more = _found->isOutdated ? 0 : viewsLeft(*_found, view.eye, spanThen->across);
+            if (more < kForeseen) searchAhead(view, *lines, shown, spanThen, more + 1);
+        }
         hidden.tiles = std::move(left->tiles);
         _found->neededReach = left->reach;
         hidden.inView = countInView(*_found, shown);
@@ -307,7 +316,7 @@ private:
         ahead->uses += _found->uses;
         ahead->shown.swap(_found->shown);
         const auto span = PictureSpan::of(lines, ahead->eye);
-        std::optional<LeftOut> left = served(*ahead, view, lines, shown, span);
+        std::optional<LeftOut> left = served(*ahead, view, lines, shown, span, _nearMeshes);
         if (!left) {
             ahead->shown.swap(_found->shown);
             return std::nullopt;
@@ -329,12 +338,13 @@ private:
         spanThen = span;
     }
 
-    // Starts a search for the views that follow those which what was found serves.
+    // Starts a search for the views that follow those which what was found serves. `first`: of them, counted from this
+    // one.
     void searchAhead(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
-                     const std::optional<PictureSpan>& spanThen) {
+                     const std::optional<PictureSpan>& spanThen, int first) {
         // it would serve none of them
         if (_found->isJump(view.eye - _found->lastEye)) return;
-        FoundPtr next = aimed(*_found, view, lines, spanThen, true);
+        FoundPtr next = aimed(*_found, view, lines, spanThen, first);
         if (!next) return;
         next->nearReach = reachToBeginWith(view, lines, *next);
         next->uses = -_found->uses;  // it grows old while the other one serves

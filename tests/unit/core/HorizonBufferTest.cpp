@@ -366,7 +366,7 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     EXPECT_TRUE(hides(wall(0.002, 0.003), behind));
     EXPECT_FALSE(hides(wall(0.007, 0.008), behind));  // farther
     HorizonBuffer nearPlaneIsFar(glm::length(eye.origin), kAcross);
-    nearPlaneIsFar.setLowest(0.0);
+    EXPECT_TRUE(nearPlaneIsFar.raiseLowest(0.0));
     add(nearPlaneIsFar, wall(0.002, 0.003));
     EXPECT_FALSE(nearPlaneIsFar.hides(nearPlaneIsFar.outlineOf(behind)));
     EXPECT_FALSE(hides(wall(0.002, 0.0056), behind));  // partly

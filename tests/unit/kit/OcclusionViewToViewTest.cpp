@@ -188,13 +188,18 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     first.eye = {{7e6, 0.0, -5e6}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
     first.nearReach = 1000.0;
     first.earth.emplace(7e6, core::Interval{-1.0, 1.0});
+    // what the tiles that come draw near the eye; null: not known
+    std::shared_ptr<const core::EcefMesh> mesh;
     // numbers: of the first tiles
     const auto whatOutlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
                                   const std::vector<FoundOcclusion::Tile>& come = {}) {
         FoundOcclusion found = from;
         for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
         found.shown.insert(found.shown.end(), come.begin(), come.end());
-        const bool holds = found.follow(view, ellipsoid);
+        const bool holds = found.follow(view, ellipsoid, [&](std::size_t i) {
+            EXPECT_GE(i, shown.size());
+            return mesh;
+        });
         EXPECT_EQ(found.tiles.size(), found.number.size());
         EXPECT_EQ(found.tiles == found.shown, holds);
         if (!holds) return Result::Nothing;
@@ -224,7 +229,7 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     // in views that follow, too
     FoundOcclusion later = first;
     later.shown = {first.tiles[0], first.tiles[3]};
-    EXPECT_TRUE(later.follow(view, ellipsoid));
+    EXPECT_TRUE(later.follow(view, ellipsoid, [](std::size_t) { return nullptr; }));
     later.shown.clear();
     EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-4, 1)}), Result::Less);
     EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-2, 1)}), Result::All);
@@ -241,6 +246,26 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     standAt(5.5, 1.5);
     EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
     EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(5, 6)}));
+    // unless its mesh is: below the eye, where it may be seen in front of the near plane; at the eye; or out of reach
+    const auto meshAhead = [&close](double ahead, double below) {
+        const auto made = std::make_shared<core::EcefMesh>();
+        const glm::dvec3 middle = close.eye.origin + ahead * close.eye.y - below * close.eye.z;
+        for (const glm::dvec3& corner : {middle, middle + 9.0 * close.eye.x, middle + 9.0 * close.eye.y}) {
+            made->x.push_back(corner.x);
+            made->y.push_back(corner.y);
+            made->z.push_back(corner.z);
+        }
+        made->triangles = {0, 1, 2};
+        return made;
+    };
+    close.span.across = {-1.0, 1.0};
+    mesh = meshAhead(100.0, 50.0);
+    EXPECT_EQ(whatOutlasts({0, 1, 2, 3}, close, {tile(5, 6)}), Result::Less);
+    mesh = meshAhead(-2.0, -1.0);
+    EXPECT_EQ(whatOutlasts({0, 1, 2, 3}, close, {tile(5, 6)}), Result::Nothing);
+    mesh = meshAhead(5000.0, 50.0);
+    EXPECT_EQ(whatOutlasts({0, 1, 2, 3}, close, {tile(5, 6)}), Result::All);
+    mesh = nullptr;
     close.eyes = {0.0, 300e3, 0.0};
     EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
     // the near plane cuts as far ahead on the sides of the picture as in the middle, and nothing beside it
@@ -250,6 +275,21 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     EXPECT_FALSE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
     close.earth.emplace(7e6, core::Interval{-0.1, 0.1});
     EXPECT_TRUE(outlasts({0, 1, 2, 3}, close, {tile(8, 9)}));
+}
+
+// A search that is begun in one view serves the view that it is begun for, however fast the eye moves.
+TEST(TerrainOcclusion, IsSearchedForTheViewsThatFollow) {
+    const core::Frame from{{6.4e6, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
+    for (const double clearance : {1.0, 100.0, 10e3}) {
+        for (const glm::dvec3& step : {glm::dvec3(0.0), glm::dvec3(0.1, 5.0, 2.0), glm::dvec3(1.0, 1.0, -8.0)}) {
+            for (const int first : {0, 1, 2}) {
+                FoundOcclusion found;
+                found.lastClearance = clearance;
+                found.aimAlong(from, step, first);
+                EXPECT_TRUE(found.holds(from.origin + static_cast<double>(first) * step)) << clearance << ' ' << first;
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -46,8 +46,12 @@ public:
     void restart(const std::vector<std::uint32_t>& without);
 
     /// Lines of sight below this position in the picture are never hidden: they may meet terrain in front of the near
-    /// plane, which is not drawn. Default: minus infinity.
-    void setLowest(double y) noexcept { _lowest = y; }
+    /// plane, which is not drawn. Default: minus infinity. Returns: whether it was lower.
+    bool raiseLowest(double y) noexcept {
+        const bool isRaised = y > _lowest;
+        if (isRaised) _lowest = y;
+        return isRaised;
+    }
 
     /// Where a body is in the picture.
     struct Outline {
@@ -86,7 +90,7 @@ public:
     /// Cost: a search among some ten numbers per strip that the body spans.
     [[nodiscard]] bool hidesInAnyOrder(const Outline& body) const noexcept;
 
-    /// Whether no line of sight to a body may meet terrain in front of the near plane: see setLowest().
+    /// Whether no line of sight to a body may meet terrain in front of the near plane: see raiseLowest().
     [[nodiscard]] bool isAboveLowest(const Outline& body) const noexcept { return body.heights.lower >= _lowest; }
 
     /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is
