@@ -351,6 +351,8 @@ FAULTS = [
 
     Fault("eyes are about tiles near their middle alone", "src/kit/cull/SelectionWalk.cpp",
           "const double radius = tile.column.radius();", "const double radius = 0.3 * tile.column.radius();", NODE, "UndergroundEyes.*"),
+    Fault("coverage: files without tiles are not there", "src/kit/install/BinInstaller.cpp",
+          "if (i < paged->getNumChildren()) below.setVisited();", "", SCENES, f"{NAMED}/file-without-tiles.scene"),
     Fault("levels chosen by pixels, or below transforms, are always due", "src/kit/cull/SelectionEvidence.cpp",
           "byDistance ? due == 0 : !isAlwaysDue(node);", "byDistance && due == 0;", NODE, "HoledGlobe.*"),
 

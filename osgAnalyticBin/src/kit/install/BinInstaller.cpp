@@ -467,12 +467,18 @@ private:
         return record;
     }
 
-    // Tiles within the mesh of another cover nothing beside it.
+    // Tiles within the mesh of another cover nothing beside it. A file that is loaded may hold no tiles at all.
     void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed) {
         Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
         coverage.setVisited();
         if (!_isBelowSelection && !_isInMesh) coverage.add(installed.place(), fit.isInPlace);
-        for (const std::string& file : tile.pagedFiles) (*_coverage)[{&installed, file}].expect(installed);
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(tile.node.get());
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i) {
+            if (!isPaged(*paged, i)) continue;
+            Coverage& below = (*_coverage)[{&installed, pagedFilePath(tile.frame.file, paged->getFileName(i))}];
+            below.expect(installed);
+            if (i < paged->getNumChildren()) below.setVisited();
+        }
     }
 
     void noteDrawn(const FoundTile& tile, InstalledTile& installed) {
