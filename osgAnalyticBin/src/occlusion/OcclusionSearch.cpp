@@ -319,10 +319,13 @@ bool FoundOcclusion::Tile::operator==(const Tile& other) const {
 
 namespace {
 
-bool isOutOfView(const FoundOcclusion::Tile& tile, const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
-    constexpr double kRoom = 1.0;  // metres, more than rounding
+std::array<BinHull, 4> quartersOf(const FoundOcclusion::Tile& tile, const core::Ellipsoid& ellipsoid) {
     const GeodeticBin drawn = tile.drawn();
-    const auto quarters = core::BinBody(ellipsoid, drawn, tile.margin, core::Frame()).quarters();
+    return core::BinBody(ellipsoid, drawn, tile.margin, core::Frame()).quarters();
+}
+
+bool isOutOfView(const std::array<BinHull, 4>& quarters, const core::PlaneSet& view) {
+    constexpr double kRoom = 1.0;  // metres, more than rounding
     return std::all_of(quarters.begin(), quarters.end(), [&](const BinHull& hull) {
         for (std::size_t i = 0; i < view.size(); ++i) {
             double highest = -HUGE_VAL;
@@ -347,28 +350,49 @@ bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
 }  // namespace
 
 bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
-    if (tiles == shown) return true;
+    std::optional<Change> change = tiles == shown ? Change() : match(view, ellipsoid, meshOf);
+    if (!change) return false;
+    const auto isOverOneThatCame = [&](const Left& left) {
+        const auto isOver = [&](const GeodeticBin& bin) { return areOverOneAnother(bin, left.bin); };
+        return std::any_of(come.begin(), come.end(), isOver);
+    };
+    // finer levels in a place that is in view again may be lower, and out of view
+    const auto isGone = [&](const Left& left) {
+        if (isOutOfView(left.quarters, view) && !isOverOneThatCame(left)) return false;
+        change->lost.push_back(left.number);
+        return true;
+    };
+    leftView.erase(std::remove_if(leftView.begin(), leftView.end(), isGone), leftView.end());
+    const bool isRaised = earth && earth->raiseLowest(change->top);
+    if (isRaised || !change->lost.empty()) forget(change->lost);
+    isOutdated = isOutdated || !change->lost.empty() || !come.empty();
+    return true;
+}
+
+std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::PlaneSet& view,
+                                                            const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
     // each tile that has come, or left the view, costs a look at all others
     constexpr std::size_t kMostCome = 64, kMostLeft = 16;
     const core::InverseFrame frame(eye);
-    std::vector<std::uint32_t> now, lost;
+    std::vector<std::uint32_t> now;
     now.reserve(shown.size());
     std::size_t next = 0, near = 0;
-    double top = -HUGE_VAL;
+    Change change;
     const auto isKnown = [&](const Tile& tile) {
         if (!earth || come.size() == kMostCome || !tile.isPlaced()) return false;
         if (!isNear(tile, *earth, ellipsoid, frame, *this)) return true;
         const auto mesh = ++near <= NearMeshes::kMostTiles ? meshOf(now.size()) : nullptr;
-        if (mesh) top = std::max(top, nearTerrain(*mesh, tile.margin, *this).top);
-        return mesh && top < HUGE_VAL;
+        if (mesh) change.top = std::max(change.top, nearTerrain(*mesh, tile.margin, *this).top);
+        return mesh && change.top < HUGE_VAL;
     };
     const auto passUntil = [&](std::size_t end) {
         for (; next < end; ++next) {
             if (number[next] == kCame || findings[number[next]] != Finding::Seen) continue;
-            if (leftView.size() < kMostLeft && isOutOfView(tiles[next], view, ellipsoid)) {
-                leftView.push_back({number[next], tiles[next].bin});
+            const auto quarters = quartersOf(tiles[next], ellipsoid);
+            if (leftView.size() < kMostLeft && isOutOfView(quarters, view)) {
+                leftView.push_back({number[next], tiles[next].bin, quarters});
             } else {
-                lost.push_back(number[next]);
+                change.lost.push_back(number[next]);
             }
         }
     };
@@ -376,7 +400,7 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         const auto from = tiles.begin() + static_cast<std::ptrdiff_t>(next);
         const auto same = static_cast<std::size_t>(std::find(from, tiles.end(), tile) - tiles.begin());
         if (same == tiles.size()) {
-            if (!isKnown(tile)) return false;
+            if (!isKnown(tile)) return std::nullopt;
             come.push_back(tile.bin);
             now.push_back(kCame);
         } else {
@@ -385,19 +409,9 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         }
     }
     passUntil(tiles.size());
-    const auto isOverOneThatCame = [&](const Left& left) {
-        const auto isOver = [&](const GeodeticBin& bin) { return areOverOneAnother(bin, left.bin); };
-        if (std::none_of(come.begin(), come.end(), isOver)) return false;
-        lost.push_back(left.number);
-        return true;
-    };
-    leftView.erase(std::remove_if(leftView.begin(), leftView.end(), isOverOneThatCame), leftView.end());
-    const bool isRaised = earth && earth->raiseLowest(top);
-    if (isRaised || !lost.empty()) forget(lost);
-    isOutdated = isOutdated || !lost.empty() || !come.empty();
     number = std::move(now);
     tiles = shown;
-    return true;
+    return change;
 }
 
 // The earth of these tiles hides nothing any more.

@@ -12,12 +12,15 @@
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/occlusion/BinBody.h>
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -74,6 +77,7 @@ struct FoundOcclusion {
     struct Left {
         std::uint32_t number;
         core::GeodeticBin bin;
+        std::array<core::BinHull, 4> quarters;  ///< of what is drawn with it, ECEF
     };
     std::vector<Left> leftView;           ///< tiles that hid others, and are out of view
     std::vector<core::GeodeticBin> come;  ///< of tiles that were not shown then
@@ -92,10 +96,10 @@ struct FoundOcclusion {
     OSGANALYTICBIN_EXPORT void aimAlong(const core::Frame& from, const glm::dvec3& step, int first);
 
     /// Takes over the tiles that are shown now, if the result holds with them. Tiles that hid nothing may have gone.
-    /// Those that hid others may have gone out of view. Where one in view has gone, its earth is taken away, and hidden
-    /// tiles are tested once more. Tiles that have come hide nothing, and are not hidden; `meshOf` is asked for the
-    /// mesh of each, by its place in `shown`, that the near plane may cut. Source: doc/theory/occlusion.md, section 5.
-    /// Returns: whether the result holds.
+    /// Those that hid others may have gone out of view, as long as their place is out of view. Where one in view has
+    /// gone, its earth is taken away, and hidden tiles are tested once more. Tiles that have come hide nothing, and are
+    /// not hidden; `meshOf` is asked for the mesh of each, by its place in `shown`, that the near plane may cut.
+    /// Source: doc/theory/occlusion.md, section 5. Returns: whether the result holds.
     using MeshOf = std::function<std::shared_ptr<const core::EcefMesh>(std::size_t)>;
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid,
                                                     const MeshOf& meshOf);
@@ -116,6 +120,13 @@ struct FoundOcclusion {
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
 
 private:
+    struct Change {
+        std::vector<std::uint32_t> lost;                        // numbers of the tiles whose earth is to be taken away
+        double top = -std::numeric_limits<double>::infinity();  // of what the near plane may cut of others
+    };
+    // Takes over the tiles that are shown now. Returns: nullopt where the result does not hold with them.
+    [[nodiscard]] std::optional<Change> match(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid,
+                                              const MeshOf& meshOf);
     void forget(const std::vector<std::uint32_t>& numbers);
 };
 

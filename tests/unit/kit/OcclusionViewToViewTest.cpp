@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -166,6 +167,47 @@ TEST(TerrainOcclusion, HidesAtOnceNoMoreThanIsLeftWhereARidgeIsReplaced) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(drawsFarTile()) << i;
 }
 
+// A ridge leaves the view. When its place is in view again there are finer levels, lower than the view.
+TEST(TerrainOcclusion, ForgetsARidgeOutOfViewOnceItsPlaceIsInViewAgain) {
+    RidgeGlobe globe(8000.0, 4);
+    const auto addTile = [](osg::Group& group, const core::GeodeticBin& extents, osg::Node* tile) {
+        setStoredBin(*tile, AnalyticBin(extents.withAltitude({-500.0, 10.0}), 10.0));
+        group.addChild(tile);
+        return tile;
+    };
+    osg::PagedLOD& ridge = *globe.row[2];
+    const osg::ref_ptr<osg::Group> finer = new osg::Group;
+    for (int i = 0; i < 4; ++i) {
+        const double south = 0.1 * (i / 2), west = 0.4 + 0.1 * (i % 2);
+        const auto extents = extentsDeg(south, south + 0.1, west, west + 0.1);
+        addTile(*finer, extents, makePaged(makeMeshTile(extents, 0.0), "no.osgb").release());
+    }
+    putBelow(ridge, finer);
+    // a leaf, which counts as shown wherever its sphere is in view
+    const auto behind = extentsDeg(0, 0.2, 0.8, 2.0), rest = extentsDeg(0, 0.2, 2.0, 45.0);
+    globe.root->removeChild(globe.row[4]);
+    osg::Node& leaf = *addTile(*globe.root, behind, makeMeshTile(behind, 0.0).release());
+    addTile(*globe.root, rest, makePaged(makeMeshTile(rest, 0.0), "no.osgb").release());
+    installBins(*globe.root, withOcclusion());
+    const auto showFiner = [&ridge](bool isShown) {
+        ridge.setRange(0, isShown ? 1e9f : 0.0f, 1e10f);
+        ridge.setRange(1, 0.0f, isShown ? 1e9f : 0.0f);
+    };
+    // with the slope of its lower edge
+    const auto eastward = [](double lowest, double fovDeg) {
+        const osg::Vec3d eye = ecefDeg(0.1, 0.1, 1000.0), up = eye / eye.length();
+        const osg::Vec3d east(-std::sin(osg::DegreesToRadians(0.1)), std::cos(osg::DegreesToRadians(0.1)), 0.0);
+        const double slope = std::tan(std::atan(lowest) + osg::DegreesToRadians(0.5 * fovDeg));
+        return CullView::lookAt(eye, eye + east + up * slope, up, fovDeg);
+    };
+    const CullView level = eastward(-0.019, 30.0), above = eastward(0.3, 10.0);
+    showFiner(false);
+    for (int i = 0; i < 2; ++i) EXPECT_FALSE(globe.draws(leaf, level)) << i;
+    (void)globe.draws(leaf, above);
+    showFiner(true);
+    EXPECT_TRUE(globe.draws(leaf, level));
+}
+
 TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     using Finding = FoundOcclusion::Finding;
     enum class Result { Nothing, Less, All };
@@ -229,10 +271,18 @@ TEST(TerrainOcclusion, OutlastsTilesThatHidNothingOrAreOutOfView) {
     // in views that follow, too
     FoundOcclusion later = first;
     later.shown = {first.tiles[0], first.tiles[3]};
-    EXPECT_TRUE(later.follow(view, ellipsoid, [](std::size_t) { return nullptr; }));
+    const auto noMesh = [](std::size_t) { return nullptr; };
+    EXPECT_TRUE(later.follow(view, ellipsoid, noMesh));
     later.shown.clear();
     EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-4, 1)}), Result::Less);
     EXPECT_EQ(whatOutlasts({0, 1}, later, {tile(-2, 1)}), Result::All);
+    // until its place is in view again
+    later.shown = later.tiles;
+    EXPECT_TRUE(later.follow(view, ellipsoid, noMesh));
+    EXPECT_EQ(later.leftView.size(), 1u);
+    EXPECT_TRUE(later.follow(core::PlaneSet(), ellipsoid, noMesh));
+    EXPECT_EQ(later.leftView.size(), 0u);
+    EXPECT_TRUE(later.isOutdated);
     const auto outlasts = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from,
                               const std::vector<FoundOcclusion::Tile>& come) {
         return whatOutlasts(shown, from, come) != Result::Nothing;
