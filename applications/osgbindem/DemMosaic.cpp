@@ -4,15 +4,257 @@
 #include "DemMosaic.h"
 
 #include "Failure.h"
+#include "Interruption.h"
+#include "RasterLayer.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+
+/// What is added to heights of a raster so that they are above the ellipsoid: the height of the geoid, found by PROJ.
+class VerticalShift final {
+public:
+    /// `vertical`: the vertical part of the reference system of the raster at `path`, empty when it has none.
+    /// `geoid`: "none" for no shift, "egm96", or a file with a grid that PROJ reads; empty for what `vertical` says.
+    /// Throws Failure when PROJ has no grid for it.
+    VerticalShift(const std::string& vertical, const std::string& geoid, const std::string& path) {
+        if (geoid == "none" || (geoid.empty() && vertical.empty())) return;
+        OGRSpatialReference source;
+        if (geoid.empty()) {
+            OGRSpatialReference positions;
+            OGRSpatialReference heights;
+            positions.importFromEPSG(4326);
+            heights.importFromWkt(vertical.c_str());
+            source.SetCompoundCS("positions and heights", &positions, &heights);
+            _what = std::string("the vertical reference \"") + heights.GetName() + "\" of \"" + path + "\"";
+        } else {
+            const bool isFile = geoid != "egm96";
+            _what = isFile ? "the geoid \"" + geoid + "\"" : "the geoid EGM96";
+            const std::string grid = isFile ? std::filesystem::absolute(geoid).string() : "egm96_15.gtx";
+            const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
+            if (source.importFromProj4(text.c_str()) != OGRERR_NONE) {
+                throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
+            }
+        }
+        OGRSpatialReference target;
+        target.importFromEPSG(4979);
+        source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        OGRCoordinateTransformationOptions options;
+        options.SetBallparkAllowed(false);
+        _transformation.reset(OGRCreateCoordinateTransformation(&source, &target, options));
+        if (!_transformation) throw Failure("PROJ has no grid for " + _what + kAdvice);
+    }
+
+    [[nodiscard]] bool isNone() const noexcept { return !_transformation; }
+
+    /// For the user: what heights are above.
+    [[nodiscard]] const std::string& what() const noexcept { return _what; }
+
+    /// Metres. Throws Failure where the grid has none.
+    [[nodiscard]] double at(const PositionDeg& position) const {
+        if (!_transformation) return 0.0;
+        double x = std::remainder(position.longitudeDeg, 360.0);
+        double y = position.latitudeDeg;
+        double z = 0.0;
+        if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
+            throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
+                          ", longitude " + std::to_string(position.longitudeDeg) + kAdvice);
+        }
+        return z;
+    }
+
+    /// Holds those of all positions of the raster within the rectangle.
+    [[nodiscard]] Interval range(const RectDeg& rect, const RasterGrid& grid) const {
+        if (isNone()) return {0.0, 0.0};
+        // Between these places the geoid differs by no more than its steepest slope allows.
+        constexpr int kPlaces = 16;
+        constexpr double kSteepest = 25.0;  // metres a degree
+        const double margin = kSteepest * std::max(rect.north - rect.south, rect.east - rect.west) / kPlaces;
+        Interval range = Interval::none();
+        for (int row = 0; row <= kPlaces; ++row) {
+            for (int column = 0; column <= kPlaces; ++column) {
+                const PositionDeg position{rect.south + (rect.north - rect.south) * row / kPlaces,
+                                           rect.west + (rect.east - rect.west) * column / kPlaces};
+                if (!grid.locate(position)) continue;
+                const double metres = at(position);
+                range.expandBy(metres - margin);
+                range.expandBy(metres + margin);
+            }
+        }
+        return range;
+    }
+
+private:
+    static constexpr const char* kAdvice =
+        "; install the package proj-data, or see --geoid (none takes heights as they are)";
+
+    std::string _what;
+    std::unique_ptr<OGRCoordinateTransformation> _transformation;
+};
+
+/// One layer of elevation rasters. Not for use by several threads: each has its own.
+class DemSource final {
+public:
+    /// Part of a layer, at a fixed place.
+    struct Block {
+        [[nodiscard]] std::size_t place(int column, int row) const noexcept {
+            return static_cast<std::size_t>((row - window.row) * window.width + column - window.column);
+        }
+
+        PixelWindow window;
+        /// NaN where they are missing.
+        std::vector<double> heights;
+        /// Where one of those was asked for.
+        std::optional<VoidFill::Block> fill;
+    };
+
+    /// The blocks of all layers that were read last; once there are too many, all are forgotten.
+    struct Blocks {
+        std::size_t most;
+        /// By layer, first column and first row.
+        std::map<std::tuple<const DemSource*, int, int>, std::shared_ptr<Block>> blocks;
+    };
+
+    /// `coarser`, `hasRivals`: see VoidFill. `blocks`: the memory that it shares with other layers.
+    DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, VoidFill::Coarser coarser, bool hasRivals,
+              std::shared_ptr<Blocks> blocks)
+        : _layer(std::move(layer)),
+          _shift(_layer->vertical(), geoid, _layer->path()),
+          _blocks(std::move(blocks)),
+          _voids{*_layer, [this](int column, int row) { return post(column, row); }, std::move(coarser), hasRivals} {}
+    DemSource(const DemSource&) = delete;
+    DemSource& operator=(const DemSource&) = delete;
+
+    [[nodiscard]] const RasterLayer& layer() const noexcept { return *_layer; }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
+    [[nodiscard]] const VerticalShift& shift() const noexcept { return _shift; }
+
+    /// Above the ellipsoid at a position, bilinear between posts, voids filled. Returns: nullopt where there is no
+    /// data.
+    [[nodiscard]] std::optional<FoundHeight> height(const PositionDeg& position) {
+        const auto cell = grid().locate(position);
+        if (!cell) return std::nullopt;
+        FoundHeight result;
+        bool isOwn = false;
+        const auto at = [&](int column, int row) {
+            const double height = post(column, row);
+            if (!std::isnan(height)) {
+                isOwn = true;
+                return height;
+            }
+            const FoundHeight found = filled(column, row);
+            isOwn = isOwn || !found.isRival;
+            result.isFilled = result.isFilled || !found.isRival;
+            return found.metres;
+        };
+        const double u = cell->eastWeight;
+        const double v = cell->secondWeight;
+        // A post without a weight is not asked for: it may be missing.
+        const auto between = [&](int row) {
+            return u > 0.0 ? (1.0 - u) * at(cell->west, row) + u * at(cell->east, row) : at(cell->west, row);
+        };
+        result.metres = between(cell->first);
+        if (v > 0.0) result.metres = (1.0 - v) * result.metres + v * between(cell->second);
+        // Where all posts around are a rival's, the rival itself is asked.
+        if (std::isnan(result.metres) || !isOwn) return std::nullopt;
+        result.metres += _shift.at(position);
+        return result;
+    }
+
+    /// Whether any post within the rectangle has data.
+    [[nodiscard]] bool hasData(const RectDeg& rect) {
+        bool isFound = false;
+        forPosts(grid().inside(rect), [&](int, int, double height) {
+            isFound = !std::isnan(height);
+            return !isFound;
+        });
+        return isFound;
+    }
+
+    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, voids filled.
+    /// Returns: whether the layer has heights everywhere in the rectangle.
+    bool addRange(const RectDeg& rect, Interval& range) {
+        bool isComplete = grid().covers(rect);
+        Interval own = Interval::none();
+        forPosts(grid().touching(rect), [&](int column, int row, double height) {
+            if (std::isnan(height)) {
+                const FoundHeight found = filled(column, row);
+                height = found.metres;
+                isComplete = isComplete && !found.isRival && !std::isnan(height);
+            }
+            own.expandBy(height);
+            return true;
+        });
+        const Interval shift = _shift.range(rect, grid());
+        if (own.width() < 0.0 || shift.width() < 0.0) return isComplete;
+        range.expandBy(own.lower + shift.lower);
+        range.expandBy(own.upper + shift.upper);
+        return isComplete;
+    }
+
+private:
+    /// The first post of the next block.
+    [[nodiscard]] static int nextBlock(int place) { return (place / VoidFill::kBlock + 1) * VoidFill::kBlock; }
+    [[nodiscard]] const std::shared_ptr<Block>& blockWith(int column, int row) {
+        if (_last && _last->window.contains(column, row)) return _last;
+        const int west = nextBlock(column) - VoidFill::kBlock;
+        const int first = nextBlock(row) - VoidFill::kBlock;
+        const std::tuple place(this, west, first);
+        const auto known = _blocks->blocks.find(place);
+        if (known != _blocks->blocks.end()) return _last = known->second;
+        osgAnalyticBin::support::throwIfStopRequested();
+        const PixelWindow window{west, first, std::min(VoidFill::kBlock, grid().columns() - west),
+                                 std::min(VoidFill::kBlock, grid().rows() - first)};
+        std::vector<double> heights(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
+        const CPLErr error = _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, west, first, window.width,
+                                                                          window.height, heights.data(), window.width,
+                                                                          window.height, GDT_Float64, 0, 0, nullptr);
+        if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+        if (_blocks->blocks.size() >= _blocks->most) _blocks->blocks.clear();
+        _last = std::make_shared<Block>(Block{window, std::move(heights), {}});
+        _blocks->blocks.emplace(place, _last);
+        return _last;
+    }
+    [[nodiscard]] double post(int column, int row) {
+        const Block& block = *blockWith(column, row);
+        return block.heights[block.place(column, row)];
+    }
+    [[nodiscard]] FoundHeight filled(int column, int row) {
+        const std::shared_ptr<Block> block = blockWith(column, row);
+        if (!block->fill) block->fill = _voids.filled(block->window);
+        return block->fill->at(block->place(column, row));
+    }
+    /// Calls `visit(column, row, height)` for each post, block by block, as long as it returns true.
+    template <typename Visit>
+    void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) {
+        for (const PixelWindow& window : windows) {
+            const int east = window.column + window.width;
+            const int south = window.row + window.height;
+            for (int row = window.row; row < south; row = nextBlock(row)) {
+                for (int column = window.column; column < east; column = nextBlock(column)) {
+                    const std::shared_ptr<Block> block = blockWith(column, row);
+                    for (int v = row; v < std::min(south, nextBlock(row)); ++v)
+                        for (int u = column; u < std::min(east, nextBlock(column)); ++u)
+                            if (!visit(u, v, block->heights[block->place(u, v)])) return;
+                }
+            }
+        }
+    }
+
+    std::unique_ptr<RasterLayer> _layer;
+    VerticalShift _shift;
+    std::shared_ptr<Blocks> _blocks;
+    std::shared_ptr<Block> _last;
+    VoidFill _voids;
+};
 
 namespace {
 
@@ -22,9 +264,10 @@ constexpr double kRival = 1.5;
 // Half of the memory is GDAL's cache, the other half what the threads keep.
 std::size_t blocksPerThread(const Settings& settings) {
     constexpr double kFewest = 16.0;
+    constexpr double kMost = 45.0;  // more save no time
     constexpr double kBytes = sizeof(double) * VoidFill::kBlock * VoidFill::kBlock;
     const double blocks = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1) / kBytes;
-    return std::min(DemBlocks().most, static_cast<std::size_t>(std::max(kFewest, blocks)));
+    return static_cast<std::size_t>(std::clamp(blocks, kFewest, kMost));
 }
 
 std::string markText(const RasterLook& look, double posts) {
@@ -36,18 +279,22 @@ std::string markText(const RasterLook& look, double posts) {
 }  // namespace
 
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
-    const auto blocks = std::make_shared<DemBlocks>();
+    const auto blocks = std::make_shared<DemSource::Blocks>();
     blocks->most = blocksPerThread(settings);
-    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
-        VerticalShift shift(layer->vertical(), settings.geoid, layer->path());
-        _sources.push_back(std::make_unique<DemSource>(std::move(layer), std::move(shift), blocks));
-    }
-    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
-        const bool hasRivals = _sources[i + 1]->layer().spacingDeg() <= kRival * _sources[i]->layer().spacingDeg();
-        _sources[i]->voids().setCoarser(
-            [this, i](int column, int row) { return below(i, _sources[i]->grid().position(column, row)); }, hasRivals);
+    RasterLayer::Layers layers = RasterLayer::elevationOf(settings, layout);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        VoidFill::Coarser coarser;
+        bool hasRivals = false;
+        if (i + 1 < layers.size()) {
+            coarser = [this, i](int column, int row) { return below(i, _sources[i]->grid().position(column, row)); };
+            hasRivals = layers[i + 1]->spacingDeg() <= kRival * layers[i]->spacingDeg();
+        }
+        _sources.push_back(
+            std::make_unique<DemSource>(std::move(layers[i]), settings.geoid, std::move(coarser), hasRivals, blocks));
     }
 }
+
+DemMosaic::~DemMosaic() = default;
 
 FoundHeight DemMosaic::below(std::size_t source, const PositionDeg& position) {
     auto found = heightFrom(source + 1, position);
@@ -109,7 +356,8 @@ std::vector<std::string> DemMosaic::inspect() {
             }
             for (const std::string& note : file.notes()) notes[note].push_back(file.path());
             const VerticalShift& shift = _sources[i]->shift();
-            if (!shift.isNone()) notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.path());
+            if (!shift.isNone())
+                notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.path());
             if (!marks.empty()) notes["missing data" + marks].push_back(file.path());
         }
     }

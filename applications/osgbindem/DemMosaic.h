@@ -3,10 +3,12 @@
 
 #pragma once
 
-#include "DemSource.h"
 #include "RasterGrid.h"
 #include "Settings.h"
 #include "TileLayout.h"
+#include "VoidFill.h"
+
+#include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <cstddef>
 #include <memory>
@@ -15,6 +17,10 @@
 #include <vector>
 
 namespace osgbindem {
+
+using osgAnalyticBin::core::Interval;
+
+class DemSource;
 
 /// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
 /// it, its border blended with them, and 0 m where none has.
@@ -25,6 +31,7 @@ public:
     explicit DemMosaic(const Settings& settings, const TileLayout* layout = nullptr);
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
+    ~DemMosaic();
 
     /// Above the ellipsoid; the same for the same position, whatever was read before. Returns: nullopt where no raster
     /// has data.

@@ -20,10 +20,14 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
+// Posts from the rim within which posts are filled.
+constexpr int kReach = 128;
+// Posts across a narrow void, at most.
+constexpr int kNarrow = 16;
 // Passes of GDAL's 3 x 3 mean over interpolated posts; each widens by one post what a height depends on.
 constexpr int kSmoothing = 20;
 // What is read around a block: at its corners a void's rim and smoothing still find all that they depend on.
-constexpr int kBorder = VoidFill::kReach + kSmoothing + 1;
+constexpr int kBorder = kReach + kSmoothing + 1;
 static_assert(VoidFill::kBlock + kBorder <= VoidFill::kMostReach);
 // In the sea a difference fades out within this many posts; it does so less and less up to a height in metres.
 constexpr double kSeaReach = 8.0;
@@ -62,7 +66,7 @@ std::vector<float> distancesTo(std::vector<GByte> isKnown, int width, int height
     const GdalDataset known = planeOf(width, height, GDT_Byte, isKnown.data());
     const GdalDataset distance = planeOf(width, height, GDT_Float32, distances.data());
     CPLStringList options(CSLTokenizeString("VALUES=255 NODATA=100000"));
-    options.SetNameValue("MAXDIST", std::to_string(VoidFill::kReach).c_str());
+    options.SetNameValue("MAXDIST", std::to_string(kReach).c_str());
     require(GDALComputeProximity(known->GetRasterBand(1), distance->GetRasterBand(1), options.List(), nullptr, nullptr),
             "measure");
     return distances;
@@ -73,19 +77,17 @@ double fade(double value, double from, double to) {
     return glm::smoothstep(to, from, value);
 }
 
-}  // namespace
-
 /// A block with the posts around it, as far as what is in the block depends on them.
-class VoidFill::Window final {
+class Window final {
 public:
     Window(const VoidFill& fill, const PixelWindow& block)
         : _fill(fill),
           _block(block),
-          _width(fill._layer.grid().columns()),
-          _turns(fill._layer.grid().isGlobal() ? 1 : 0) {
+          _width(fill.layer.grid().columns()),
+          _turns(fill.layer.grid().isGlobal() ? 1 : 0) {
         // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
         const int most = _turns > 0 ? _width : 1;
-        const int rows = fill._layer.grid().rows();
+        const int rows = fill.layer.grid().rows();
         const int west = std::max(block.column - kBorder, -most);
         const int first = std::max(block.row - kBorder, -1);
         _posts = {west, first, std::min(block.column + block.width + kBorder, _width + most) - west,
@@ -96,14 +98,14 @@ public:
         findKinds();
     }
 
-    [[nodiscard]] Block filled() {
+    [[nodiscard]] VoidFill::Block filled() {
         const std::vector<GByte> isKnown = known();
         if (std::find(isKnown.begin(), isKnown.end(), 255) == isKnown.end()) return {};
         const std::vector<float> distances = distancesTo(isKnown, _posts.width, _posts.height);
         sortVoids(distances);
         std::vector<float> narrow;
         std::vector<float> wide;
-        Block result;
+        VoidFill::Block result;
         forPosts(_block, [&](int x, int y, std::size_t i) {
             const Kind kind = _kinds[i];
             result.isRival.push_back(kind == Kind::Rival);
@@ -113,7 +115,7 @@ public:
                 if (narrow.empty()) narrow = interpolated();
                 height = narrow[i];
             }
-            if (kind != Kind::Wide || !_fill._coarser || distances[i] >= kReach) return;
+            if (kind != Kind::Wide || !_fill.coarser || distances[i] >= kReach) return;
             if (wide.empty()) wide = differences();
             const double coarser = coarserAt(x, y).metres;
             const double onLand = fade(distances[i], 0.5 * kReach, kReach);
@@ -152,21 +154,21 @@ private:
         const int column = _posts.column + x;
         return _turns > 0 ? (column + _width) % _width : column;
     }
-    [[nodiscard]] FoundHeight coarserAt(int x, int y) const { return _fill._coarser(columnOf(x), _posts.row + y); }
+    [[nodiscard]] FoundHeight coarserAt(int x, int y) const { return _fill.coarser(columnOf(x), _posts.row + y); }
 
     void findKinds() {
-        const PixelWindow raster{-_turns * _width, 0, (2 * _turns + 1) * _width, _fill._layer.grid().rows()};
+        const PixelWindow raster{-_turns * _width, 0, (2 * _turns + 1) * _width, _fill.layer.grid().rows()};
         forPosts(raster, [&](int x, int y, std::size_t i) {
-            _heights[i] = _fill._post(columnOf(x), _posts.row + y);
+            _heights[i] = _fill.post(columnOf(x), _posts.row + y);
             if (!std::isnan(_heights[i])) _kinds[i] = Kind::Data;
         });
-        for (const RasterLayer::Member& member : _fill._layer.members()) {
+        for (const RasterLayer::Member& member : _fill.layer.members()) {
             for (int turn = -_turns; turn <= _turns; ++turn) {
                 PixelWindow part = member.window;
                 part.column += turn * _width;
                 forPosts(part, [&](int x, int y, std::size_t i) {
                     if (_kinds[i] != Kind::Outside) return;
-                    const FoundHeight coarser = _fill._hasRivals ? coarserAt(x, y) : FoundHeight();
+                    const FoundHeight coarser = _fill.hasRivals ? coarserAt(x, y) : FoundHeight();
                     _kinds[i] = coarser.isRival ? Kind::Rival : Kind::Narrow;
                     if (coarser.isRival) _heights[i] = coarser.metres;
                 });
@@ -250,6 +252,8 @@ private:
     /// Of each post. What is missing is beyond the raster's border, or in a void.
     std::vector<Kind> _kinds;
 };
+
+}  // namespace
 
 VoidFill::Block VoidFill::filled(const PixelWindow& block) const {
     return Window(*this, block).filled();

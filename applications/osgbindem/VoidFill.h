@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace osgbindem {
@@ -28,15 +27,14 @@ struct FoundHeight {
 /// Fills the voids of one raster: posts without data that stand near posts with data.
 ///
 /// Narrow voids are interpolated from the heights at their rim. In wider ones the difference between the raster and the
-/// coarser rasters is interpolated from the rim and added to the coarser rasters (delta surface): full up to half of
-/// kReach posts from the rim, and fading out until kReach. Beyond the raster's border the difference counts as 0.
+/// coarser rasters is interpolated from the rim and added to the coarser rasters (delta surface): full up to 64
+/// posts from the rim, and fading out until 128. Beyond the raster's border the difference counts as 0.
 /// Where the coarser rasters have sea the difference fades out within a few posts: the void is the sea, most likely.
 /// Where another raster that is nearly as fine has data, a rival, this is data here, too, before anything is filled.
 ///
-/// The raster is filled in blocks at fixed places, each from the posts within kReach of it, so a height depends on the
+/// The raster is filled in blocks at fixed places, each from the posts around it, so a height depends on the
 /// rasters alone and not on what was asked before. Not for use by several threads.
-class VoidFill final {
-public:
+struct VoidFill {
     /// The height of a post of the raster; NaN where it is missing.
     using Post = std::function<double(int column, int row)>;
     /// What the coarser rasters have at a post.
@@ -56,33 +54,20 @@ public:
 
     /// Posts along the side of a block.
     static constexpr int kBlock = 256;
-    /// Posts from the rim within which posts are filled.
-    static constexpr int kReach = 128;
     /// Posts that a change of the coarser rasters may reach, no more.
     static constexpr int kMostReach = 512;
-    /// Posts across a narrow void, at most.
-    static constexpr int kNarrow = 16;
 
     /// What is in none of the layer's rasters is beyond the border; those round the globe have none in the west and
-    /// east. Without coarser rasters only narrow voids are filled.
-    VoidFill(const RasterLayer& layer, Post post) : _layer(layer), _post(std::move(post)) {}
-
-    /// Before the first void is filled. `hasRivals`: whether some of them are nearly as fine.
-    void setCoarser(Coarser coarser, bool hasRivals) {
-        _coarser = std::move(coarser);
-        _hasRivals = hasRivals;
-    }
+    /// east.
+    const RasterLayer& layer;
+    Post post;
+    /// Without it only narrow voids are filled.
+    Coarser coarser;
+    /// Whether some of the coarser rasters are nearly as fine.
+    bool hasRivals;
 
     /// What stands at the posts of a block, row by row. Throws Failure.
     [[nodiscard]] Block filled(const PixelWindow& block) const;
-
-private:
-    class Window;
-
-    const RasterLayer& _layer;
-    Post _post;
-    Coarser _coarser;
-    bool _hasRivals = false;
 };
 
 }  // namespace osgbindem

@@ -4,27 +4,29 @@
 #include "Terrain.h"
 
 #include "Angles.h"
-#include "Failure.h"
+#include "RasterLayer.h"
 
 #include <osg/CoordinateSystemNode>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <utility>
 
 namespace osgAnalyticBin::paper {
-
-using support::Failure;
 
 namespace {
 
 using support::kDegreesPerRadian;
 
-std::unique_ptr<osgbindem::RasterLayer> layerOf(const std::string& dem) {
+osgbindem::Settings settingsFor(const std::string& dem) {
     osgbindem::Settings settings;
     settings.dems = {{dem}};
-    return std::move(osgbindem::RasterLayer::elevationOf(settings, nullptr).front());
+    return settings;
+}
+
+osgbindem::RectDeg extentOf(const std::string& dem) {
+    const osgbindem::RasterLayer::Layers layers = osgbindem::RasterLayer::elevationOf(settingsFor(dem), nullptr);
+    if (layers.front()->grid().isGlobal()) return {-180.0, -90.0, 180.0, 90.0};
+    return layers.front()->grid().extent().grownBy(0.0);
 }
 
 }  // namespace
@@ -35,29 +37,28 @@ core::Ellipsoid wgs84() {
 }
 
 Terrain::Terrain(const std::string& dem, int deepestLevel)
-    : _ellipsoid(wgs84()), _source(layerOf(dem)), _heights(static_cast<std::size_t>(deepestLevel) + 1) {
+    : _ellipsoid(wgs84()),
+      _mosaic(settingsFor(dem)),
+      _extent(extentOf(dem)),
+      _heights(static_cast<std::size_t>(deepestLevel) + 1) {
     for (int level = 0; level <= deepestLevel; ++level) {
         const TileId any{level, 0, 0};
         _heights[static_cast<std::size_t>(level)].resize(static_cast<std::size_t>(any.columns() * any.rows()));
     }
     for (int y = 0; y < TileId::kStartRows; ++y)
         for (int x = 0; x < TileId::kStartColumns; ++x) findHeights({0, x, y});
-    const osgbindem::RasterLook look = _source.layer().members().front().file->look();
-    if (look.missing == look.posts) throw Failure("no heights in \"" + dem + "\", only missing data");
+    (void)_mosaic.inspect();
 }
 
 core::Interval Terrain::findHeights(const TileId& tile) {
     core::Interval& heights = _heights[level(tile)][place(tile)];
-    if (tile.level == deepestLevel()) return heights = range(tile);
+    if (tile.level == deepestLevel()) {
+        const core::Interval range = _mosaic.range(tile.rect());
+        return heights = {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
+    }
     heights = core::Interval::none();
     for (const TileId& child : tile.children()) heights = heights.united(findHeights(child));
     return heights;
-}
-
-core::Interval Terrain::range(const TileId& tile) {
-    core::Interval range = core::Interval::none();
-    if (!_source.addRange(tile.rect(), range)) range.expandBy(0.0);
-    return {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
 }
 
 core::GeodeticBin Terrain::bin(const TileId& tile) const {
@@ -65,15 +66,8 @@ core::GeodeticBin Terrain::bin(const TileId& tile) const {
     return core::GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, heights(tile));
 }
 
-osgbindem::RectDeg Terrain::extent() const noexcept {
-    if (_source.grid().isGlobal()) return {-180.0, -90.0, 180.0, 90.0};
-    const osgbindem::RectDeg extent = _source.grid().extent();
-    return {extent.west, std::max(extent.south, -90.0), extent.east, std::min(extent.north, 90.0)};
-}
-
 double Terrain::height(const osgbindem::PositionDeg& position) {
-    const auto found = _source.height(position);
-    return std::max(found ? found->metres : 0.0, 0.0);
+    return std::max(_mosaic.height(position), 0.0);
 }
 
 core::Geodetic Terrain::onSurface(const core::Geodetic& position) {

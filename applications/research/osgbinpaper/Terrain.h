@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "DemSource.h"
+#include "DemMosaic.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
 
     /// Where the raster has part; the whole globe for one that goes round it.
-    [[nodiscard]] osgbindem::RectDeg extent() const noexcept;
+    [[nodiscard]] const osgbindem::RectDeg& extent() const noexcept { return _extent; }
 
     /// Metres above the ellipsoid, bilinear between posts.
     [[nodiscard]] double height(const osgbindem::PositionDeg& position);
@@ -57,10 +57,10 @@ private:
     }
 
     core::Interval findHeights(const TileId& tile);
-    [[nodiscard]] core::Interval range(const TileId& tile);
 
     core::Ellipsoid _ellipsoid;
-    osgbindem::DemSource _source;
+    osgbindem::DemMosaic _mosaic;
+    osgbindem::RectDeg _extent;
     std::vector<std::vector<core::Interval>> _heights;  // of each level, rows from south to north
 };
 

@@ -10,11 +10,10 @@
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 
-#include <DemSource.h>
+#include <DemMosaic.h>
 #include <Failure.h>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -22,17 +21,17 @@ namespace {
 constexpr const char* kFile = "/vsimem/fuzz.asc";
 
 void tryRaster(const osgbindem::Settings& settings) {
-    osgbindem::DemSource source(std::move(osgbindem::RasterLayer::elevationOf(settings, nullptr).front()));
+    osgbindem::DemMosaic mosaic(settings);
     for (const double latitude : {-90.0, -0.5, 0.0, 12.25, 90.0}) {
         for (const double longitude : {-180.0, -0.5, 0.0, 33.5, 180.0}) {
             osgbindem::PositionDeg position{};
             position.latitudeDeg = latitude;
             position.longitudeDeg = longitude;
-            const auto height = source.height(position);
+            const auto height = mosaic.find(position);
             osgAnalyticBin::test::require(!height || std::isfinite(height->metres));
         }
     }
-    (void)source.layer().members().front().file->look();
+    (void)mosaic.inspect();
 }
 
 }  // namespace
