@@ -65,12 +65,12 @@ void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::o
         // Where heights or colours may depend on the raster.
         const RectDeg area = member->grid.extent().grownBy(member->grid.resolutionDeg());
         out << kind << reach(member->grid) << ' ' << member->grid.resolutionDeg() << ' ' << area.west << ' '
-            << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file->path())
+            << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file.input.path)
             << ", blended over ";
         member->band.describe(out);
-        out << ", scale " << member->file->input().metresPerUnit.value_or(0.0);
+        out << ", scale " << member->file.input.metresPerUnit.value_or(0.0);
         // A raster may be made of many files: a mosaic, or one with overviews beside it.
-        const CPLStringList files(member->file->file().GetFileList());
+        const CPLStringList files(member->file.file->GetFileList());
         for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);
         out << '\n';
     }

@@ -347,18 +347,18 @@ std::vector<std::string> DemMosaic::inspect() {
     std::map<std::string, std::vector<std::string>> notes;  // each with the paths of what it is true of
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
-            const RasterFile& file = *member.file;
+            const RasterFile& file = member.file;
             const RasterLook look = file.look();
             const std::string marks = look.marks > 0.0 ? markText(look, file.posts()) : std::string();
             if (look.missing == look.posts) {
-                throw Failure("no heights in \"" + file.path() + "\", only missing data" + marks +
+                throw Failure("no heights in \"" + file.input.path + "\", only missing data" + marks +
                               "; leave it out, or see --nodata, --height-unit and --radii");
             }
-            for (const std::string& note : file.notes()) notes[note].push_back(file.path());
+            for (const std::string& note : file.notes) notes[note].push_back(file.input.path);
             const VerticalShift& shift = _sources[i]->shift();
             if (!shift.isNone())
-                notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.path());
-            if (!marks.empty()) notes["missing data" + marks].push_back(file.path());
+                notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.input.path);
+            if (!marks.empty()) notes["missing data" + marks].push_back(file.input.path);
         }
     }
     std::vector<std::string> lines;

@@ -87,7 +87,7 @@ bool looksLikeDegrees(const GeoTransform& t, int width, int height) {
            std::abs(t[3]) <= 90.0 + std::abs(t[5]) && std::abs(other) <= 90.0 + std::abs(t[5]);
 }
 
-bool isUnturned(const GeoTransform& t) {
+bool hasNoRotation(const GeoTransform& t) {
     return t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
 }
 
@@ -119,7 +119,8 @@ void requireGeoreferencing(GDALDataset& dataset, const std::string& path) {
         throw Failure("the coordinates of \"" + path + "\" are far from any globe; correct its georeferencing");
     }
     if (dataset.GetSpatialRef() == nullptr &&
-        (!isUnturned(transform) || !looksLikeDegrees(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()))) {
+        (!hasNoRotation(transform) ||
+         !looksLikeDegrees(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()))) {
         throw Failure("no reference system in \"" + path +
                       "\", and its coordinates are not degrees; add one, for example with gdal_edit.py -a_srs");
     }
@@ -193,114 +194,113 @@ double roundedSpacing(double circleDeg, double spacingDeg) {
 
 }  // namespace
 
-RasterFile::RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg)
-    : _input(std::move(input)) {
+RasterFile::RasterFile(const Settings& settings, DemInput raster, bool isElevation, double spacingDeg)
+    : input(std::move(raster)) {
     open(settings, isElevation, -1);
     const int number = overview(spacingDeg);
     if (number >= 0) open(settings, isElevation, number);
 }
 
 void RasterFile::open(const Settings& settings, bool isElevation, int overview) {
-    _decoded.reset();
-    _file = opened(path(), overview);
-    requireGeoreferencing(*_file, path());
+    dataset.reset();
+    file = opened(input.path, overview);
+    requireGeoreferencing(*file, input.path);
     takeReference(settings.isWgs84);
-    _notes.clear();
-    _decoded = isElevation ? heightsOf(*_file, settings, _input, _horizontal, _notes) : coloursOf(*_file, path());
+    notes.clear();
+    dataset = isElevation ? heightsOf(*file, settings, input, horizontal, notes) : coloursOf(*file, input.path);
     place();
 }
 
 void RasterFile::takeReference(bool isWgs84) {
-    _target = wgs84();
-    const OGRSpatialReference* reference = referenceOf(*_file);
+    target = wgs84();
+    const OGRSpatialReference* reference = referenceOf(*file);
     if (reference == nullptr) return;
-    _vertical = verticalOf(*reference);
-    _horizontal = *reference;
-    _horizontal.StripVertical();
-    _horizontal.DemoteTo2D(nullptr);
-    _horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    vertical = verticalOf(*reference);
+    horizontal = *reference;
+    horizontal.StripVertical();
+    horizontal.DemoteTo2D(nullptr);
+    horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (reference->IsLocal() != 0) {
-        throw Failure("the reference system of \"" + path() + "\" is local; give one that has a place on the globe");
+        throw Failure("the reference system of \"" + input.path +
+                      "\" is local; give one that has a place on the globe");
     }
     if (!isWgs84) {
-        _target.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
-        _target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        target.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
+        target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     } else if (!isOfEarth(*reference)) {
-        throw Failure("\"" + path() + "\" is of another body than the globe; give rasters of one body, or --radii " +
+        throw Failure("\"" + input.path +
+                      "\" is of another body than the globe; give rasters of one body, or --radii " +
                       CPLSPrintf("%.9g %.9g", reference->GetSemiMajor(), reference->GetSemiMinor()));
     }
 }
 
-bool RasterFile::isNorthUp() const noexcept {
-    return _hasTransform && isUnturned(_transform) && _transform[5] < 0.0;
-}
-
 Failure RasterFile::noWayToGlobe() const {
-    return Failure("cannot bring \"" + path() + "\" to latitude and longitude: " + gdalMessage());
+    return Failure("cannot bring \"" + input.path + "\" to latitude and longitude: " + gdalMessage());
 }
 
 std::unique_ptr<OGRCoordinateTransformation> RasterFile::wayToGlobe() const {
-    std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&_horizontal, &_target));
+    std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&horizontal, &target));
     if (!way) throw noWayToGlobe();
     return way;
 }
 
 bool RasterFile::isInDegreesOfGlobe() const {
-    if (!_hasTransform || !isUnturned(_transform)) return false;
-    if (_horizontal.IsEmpty()) return true;
-    if (_horizontal.IsGeographic() == 0 || _horizontal.IsDerivedGeographic() != 0) return false;
-    if (_horizontal.IsSame(&_target) != 0) return true;
+    if (!isUnturned) return false;
+    if (horizontal.IsEmpty()) return true;
+    if (horizontal.IsGeographic() == 0 || horizontal.IsDerivedGeographic() != 0) return false;
+    if (horizontal.IsSame(&target) != 0) return true;
     const auto way = wayToGlobe();
     constexpr double kMost = 0.01;  // pixels
     // Latitudes of a sphere and of an ellipsoid differ most halfway between poles and equator.
     for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         for (const double v : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            const double east = _transform[0] + u * _file->GetRasterXSize() * _transform[1];
-            const double north = std::clamp(_transform[3] + v * _file->GetRasterYSize() * _transform[5], -90.0, 90.0);
+            const double east = transform[0] + u * file->GetRasterXSize() * transform[1];
+            const double north = std::clamp(transform[3] + v * file->GetRasterYSize() * transform[5], -90.0, 90.0);
             double x = east;
             double y = north;
             if (way->Transform(1, &x, &y) == 0) return false;
-            if (std::abs(std::remainder(x - east, 360.0)) > kMost * _transform[1] && std::abs(north) < 90.0)
+            if (std::abs(std::remainder(x - east, 360.0)) > kMost * transform[1] && std::abs(north) < 90.0)
                 return false;
-            if (std::abs(y - north) > kMost * std::abs(_transform[5])) return false;
+            if (std::abs(y - north) > kMost * std::abs(transform[5])) return false;
         }
     }
     return true;
 }
 
 void RasterFile::place() {
-    _hasTransform = dataset().GetGeoTransform(_transform.data()) == CE_None;
-    _isPlain = isInDegreesOfGlobe();
-    if (_isPlain) {
-        const double east = _transform[0] + _file->GetRasterXSize() * _transform[1];
-        const double other = _transform[3] + _file->GetRasterYSize() * _transform[5];
-        _extent = {_transform[0], std::min(_transform[3], other), east, std::max(_transform[3], other)};
-        _eastDeg = _transform[1];
-        _northDeg = std::abs(_transform[5]);
+    isUnturned = dataset->GetGeoTransform(transform.data()) == CE_None && hasNoRotation(transform);
+    isPlain = isInDegreesOfGlobe();
+    if (isPlain) {
+        const double east = transform[0] + file->GetRasterXSize() * transform[1];
+        const double other = transform[3] + file->GetRasterYSize() * transform[5];
+        extent = {transform[0], std::min(transform[3], other), east, std::max(transform[3], other)};
+        eastDeg = transform[1];
+        northDeg = std::abs(transform[5]);
     } else {
         placeWarped();
     }
     constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
-    if (!(_eastDeg >= kFinestDeg && _northDeg >= kFinestDeg)) {
-        throw Failure("the pixels of \"" + path() + "\" have no size on a globe; correct its georeferencing");
+    if (!(eastDeg >= kFinestDeg && northDeg >= kFinestDeg)) {
+        throw Failure("the pixels of \"" + input.path + "\" have no size on a globe; correct its georeferencing");
     }
     constexpr double kMostTurns = 2.0;
-    if (_extent.east - _extent.west > kMostTurns * 360.0 || _eastDeg > 360.0 || _northDeg > 180.0) {
-        throw Failure("\"" + path() + "\" or one of its pixels is larger than a globe; correct its georeferencing");
+    if (extent.east - extent.west > kMostTurns * 360.0 || eastDeg > 360.0 || northDeg > 180.0) {
+        throw Failure("\"" + input.path + "\" or one of its pixels is larger than a globe; correct its georeferencing");
     }
-    if (!(_extent.south < 90.0 && _extent.north > -90.0)) {
-        throw Failure("no part of \"" + path() + "\" lies between latitudes -90 and 90; correct its georeferencing");
+    if (!(extent.south < 90.0 && extent.north > -90.0)) {
+        throw Failure("no part of \"" + input.path +
+                      "\" lies between latitudes -90 and 90; correct its georeferencing");
     }
 }
 
 void RasterFile::placeWarped() {
     const auto way = wayToGlobe();
-    Places places(dataset());
+    Places places(*dataset);
     if (places.x.empty()) throw noWayToGlobe();
-    _extent = extentOf(places, *way);
+    extent = extentOf(places, *way);
     way->Transform(static_cast<int>(places.x.size()), places.x.data(), places.y.data(), nullptr, places.isFound.data());
-    std::vector<double> eastDeg;
-    std::vector<double> northDeg;
+    std::vector<double> eastward;
+    std::vector<double> northward;
     for (std::size_t i = 0; i < places.x.size(); i += 4) {
         const auto isFound = places.isFound.begin() + static_cast<std::ptrdiff_t>(i);
         const double lonX = std::remainder(places.x[i + 1] - places.x[i], 360.0);
@@ -312,22 +312,22 @@ void RasterFile::placeWarped() {
         const double north = area / std::hypot(lonX, lonY);
         if (std::count(isFound, isFound + 4, 0) > 0 || !std::isfinite(area)) {
             // Next to where a map ends, degrees change faster than its border tells.
-            _extent = {-180.0, -90.0, 180.0, 90.0};
+            extent = {-180.0, -90.0, 180.0, 90.0};
             continue;
         }
-        if (east > 0.0 && std::isfinite(east)) eastDeg.push_back(east);
-        if (north > 0.0 && std::isfinite(north)) northDeg.push_back(north);
+        if (east > 0.0 && std::isfinite(east)) eastward.push_back(east);
+        if (north > 0.0 && std::isfinite(north)) northward.push_back(north);
     }
-    if (_extent.west > _extent.east || eastDeg.empty() || northDeg.empty()) throw noWayToGlobe();
-    std::sort(northDeg.begin(), northDeg.end());
-    _eastDeg = roundedSpacing(360.0, *std::min_element(eastDeg.begin(), eastDeg.end()));
-    _northDeg = roundedSpacing(180.0, northDeg[northDeg.size() / 2]);
+    if (extent.west > extent.east || eastward.empty() || northward.empty()) throw noWayToGlobe();
+    std::sort(northward.begin(), northward.end());
+    eastDeg = roundedSpacing(360.0, *std::min_element(eastward.begin(), eastward.end()));
+    northDeg = roundedSpacing(180.0, northward[northward.size() / 2]);
 }
 
 /// The number of the coarsest that is as fine as needed; -1 without one.
 int RasterFile::overview(double spacingDeg) const {
-    GDALRasterBand& band = *_file->GetRasterBand(1);
-    const double fullDeg = std::min(_eastDeg, _northDeg);
+    GDALRasterBand& band = *file->GetRasterBand(1);
+    const double fullDeg = std::min(eastDeg, northDeg);
     int level = -1;
     double coarsestDeg = fullDeg;
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
@@ -345,8 +345,8 @@ int RasterFile::overview(double spacingDeg) const {
 RasterLook RasterFile::look() const {
     // GDAL reads these posts from an overview where there is one, so that a server sends little.
     constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
-    GDALRasterBand& band = *dataset().GetRasterBand(1);
-    const int most = _file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    const int most = file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
     const int width = std::min(most, band.GetXSize());
     const int rows = std::min(most, band.GetYSize());
     std::vector<double> heights(static_cast<std::size_t>(std::max(width, band.GetXSize())) *
@@ -355,9 +355,9 @@ RasterLook RasterFile::look() const {
         throwIfStopRequested();
         const CPLErr error = band.RasterIO(GF_Read, 0, row, band.GetXSize(), rowsRead, heights.data(), columns,
                                            rowsWanted, GDT_Float64, 0, 0, nullptr);
-        if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
+        if (error != CE_None) throw Failure("cannot read \"" + input.path + "\": " + gdalMessage());
     };
-    RasterLook& look = lookOf(dataset());
+    RasterLook& look = lookOf(*dataset);
     look = {};
     read(0, band.GetYSize(), width, rows);
     const bool isAll = look.posts == posts();

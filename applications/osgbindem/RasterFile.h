@@ -21,45 +21,40 @@ using GeoTransform = std::array<double, 6>;
 
 /// A raster file opened with GDAL. Elevation is one band of metres, with NaN for all that the file marks as missing in
 /// any way; colours are bands of bytes, red, green, blue and alpha.
-class RasterFile final {
-public:
+struct RasterFile {
     /// `isElevation`: false for colours. `spacingDeg`: the coarsest overview whose posts are no farther apart is read
     /// in place of the raster; 0 for none. Throws Failure.
     RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg);
 
-    [[nodiscard]] const DemInput& input() const noexcept { return _input; }
-    [[nodiscard]] const std::string& path() const noexcept { return _input.path; }
-    [[nodiscard]] GDALDataset& dataset() const noexcept { return *_decoded; }
-    /// As the file has it.
-    [[nodiscard]] GDALDataset& file() const noexcept { return *_file; }
-
-    /// Whether the raster's own coordinates are the degrees of the globe, rows along parallels.
-    [[nodiscard]] bool isPlain() const noexcept { return _isPlain; }
-    [[nodiscard]] const GeoTransform& transform() const noexcept { return _transform; }
-    /// The geotransform is there, without rotation, north up.
-    [[nodiscard]] bool isNorthUp() const noexcept;
-
-    /// The area; goes round the globe for a raster that holds a pole.
-    [[nodiscard]] const RectDeg& extent() const noexcept { return _extent; }
-    /// The distance between posts along parallels where it is least, and along meridians in the middle.
-    [[nodiscard]] double eastDeg() const noexcept { return _eastDeg; }
-    [[nodiscard]] double northDeg() const noexcept { return _northDeg; }
-
-    /// The reference system without its vertical part, and that part; empty without one.
-    [[nodiscard]] const OGRSpatialReference& horizontal() const noexcept { return _horizontal; }
-    [[nodiscard]] const std::string& vertical() const noexcept { return _vertical; }
-    /// Longitude and latitude in degrees on the globe.
-    [[nodiscard]] const OGRSpatialReference& target() const noexcept { return _target; }
-
-    /// What the user should know: units that are no metres, the band of several.
-    [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return _notes; }
-
+    [[nodiscard]] bool isNorthUp() const noexcept { return isUnturned && transform[5] < 0.0; }
+    [[nodiscard]] double posts() const { return static_cast<double>(file->GetRasterXSize()) * file->GetRasterYSize(); }
     /// Looks at all of the raster, or at evenly spread posts of a large one; at all of it, too, while none has a
     /// height. Requires: elevation. Throws Failure.
     [[nodiscard]] RasterLook look() const;
-    [[nodiscard]] double posts() const {
-        return static_cast<double>(_file->GetRasterXSize()) * _file->GetRasterYSize();
-    }
+
+    DemInput input;
+    /// As it is, and the metres or colours that are made of it.
+    GdalDataset file;
+    GdalDataset dataset;
+    /// What the user should know: units that are no metres, the band of several.
+    std::vector<std::string> notes;
+
+    /// The reference system without its vertical part, and that part; empty without one.
+    OGRSpatialReference horizontal;
+    std::string vertical;
+    /// Longitude and latitude in degrees on the globe.
+    OGRSpatialReference target;
+
+    GeoTransform transform{};
+    /// The geotransform is there, without rotation.
+    bool isUnturned = false;
+    /// The raster's own coordinates are the degrees of the globe, rows along parallels.
+    bool isPlain = false;
+    /// The area; goes round the globe for a raster that holds a pole.
+    RectDeg extent;
+    /// The distance between posts along parallels where it is least, and along meridians in the middle.
+    double eastDeg = 0.0;
+    double northDeg = 0.0;
 
 private:
     void open(const Settings& settings, bool isElevation, int overview);
@@ -71,21 +66,6 @@ private:
     [[nodiscard]] std::unique_ptr<OGRCoordinateTransformation> wayToGlobe() const;
     [[nodiscard]] osgAnalyticBin::support::Failure noWayToGlobe() const;
     [[nodiscard]] int overview(double spacingDeg) const;
-
-    DemInput _input;
-    GdalDataset _file;
-    /// The metres or colours that are made of the file.
-    GdalDataset _decoded;
-    bool _isPlain = false;
-    bool _hasTransform = false;
-    GeoTransform _transform{};
-    RectDeg _extent;
-    double _eastDeg = 0.0;
-    double _northDeg = 0.0;
-    OGRSpatialReference _horizontal;
-    std::string _vertical;
-    OGRSpatialReference _target;
-    std::vector<std::string> _notes;
 };
 
 /// The ellipsoid that a raster declares, where it is not the earth's. Throws Failure.

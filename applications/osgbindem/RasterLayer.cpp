@@ -25,15 +25,15 @@ namespace {
 
 /// Whether the pixels of both are those of one grid, which they meet on.
 bool haveOneGrid(const RasterFile& a, const RasterFile& b) {
-    if (!a.isNorthUp() || !b.isNorthUp() || a.isPlain() != b.isPlain()) return false;
-    if (a.vertical() != b.vertical() || (!a.isPlain() && a.horizontal().IsSame(&b.horizontal()) == 0)) return false;
-    GDALDataset& first = a.dataset();
-    GDALDataset& second = b.dataset();
+    if (!a.isNorthUp() || !b.isNorthUp() || a.isPlain != b.isPlain) return false;
+    if (a.vertical != b.vertical || (!a.isPlain && a.horizontal.IsSame(&b.horizontal) == 0)) return false;
+    GDALDataset& first = *a.dataset;
+    GDALDataset& second = *b.dataset;
     if (first.GetRasterCount() != second.GetRasterCount() ||
         first.GetRasterBand(1)->GetMaskFlags() != second.GetRasterBand(1)->GetMaskFlags())
         return false;
-    const GeoTransform& t = a.transform();
-    const GeoTransform& u = b.transform();
+    const GeoTransform& t = a.transform;
+    const GeoTransform& u = b.transform;
     constexpr double kMost = 0.01;  // pixels
     const auto fits = [&](double size, double other, double start, double otherStart, int pixels, int otherPixels) {
         if (std::abs(size - other) * std::max(pixels, otherPixels) > kMost * std::abs(size)) return false;
@@ -79,14 +79,14 @@ struct Frame {
 
 GdalDataset mosaicOf(const RasterLayer::Members& members) {
     std::vector<GDALDatasetH> handles;
-    for (const auto& member : members) handles.push_back(GDALDataset::ToHandle(&member.file->dataset()));
+    for (const auto& member : members) handles.push_back(GDALDataset::ToHandle(member.file.dataset.get()));
     std::reverse(handles.begin(), handles.end());  // those named later are below
-    const RasterFile& first = *members.front().file;
+    const RasterFile& first = members.front().file;
     CPLStringList words(
-        CSLTokenizeString(CPLSPrintf("-resolution user -tr %.17g %.17g %s", first.transform()[1], -first.transform()[5],
-                                     isElevation(first.dataset()) ? "-srcnodata nan -vrtnodata nan" : "")));
+        CSLTokenizeString(CPLSPrintf("-resolution user -tr %.17g %.17g %s", first.transform[1], -first.transform[5],
+                                     isElevation(*first.dataset) ? "-srcnodata nan -vrtnodata nan" : "")));
     return madeBy<GDALBuildVRTOptionsNew, GDALBuildVRTOptionsFree>(
-        words, "make a mosaic of \"" + first.path() + "\" and others", [&](auto* options, int* usageError) {
+        words, "make a mosaic of \"" + first.input.path + "\" and others", [&](auto* options, int* usageError) {
             const int count = static_cast<int>(handles.size());
             return GDALBuildVRT("", count, handles.data(), nullptr, options, usageError);
         });
@@ -95,7 +95,7 @@ GdalDataset mosaicOf(const RasterLayer::Members& members) {
 GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& frame) {
     constexpr double kMost = std::numeric_limits<int>::max();
     if (!(frame.columns >= 1.0 && frame.rows >= 1.0 && frame.columns < kMost && frame.rows < kMost)) {
-        throw Failure("\"" + file.path() + "\" is too wide for its spacing; give a part of it, see gdal_translate");
+        throw Failure("\"" + file.input.path + "\" is too wide for its spacing; give a part of it, see gdal_translate");
     }
     // Each post is transformed by itself: what is between others would depend on how the raster is divided. Its height
     // is that of its place (XSCALE, YSCALE), not the mean around it where the map's pixels are smaller.
@@ -105,9 +105,9 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
         t[3] + frame.rows * t[5], t[0] + frame.columns * t[1], t[3], frame.columns, frame.rows,
         isElevation(dataset) ? "-srcnodata nan -dstnodata nan -wo XSCALE=1 -wo YSCALE=1" : "-dstalpha")));
     words.AddString("-t_srs");
-    words.AddString(wktOf(file.target()).c_str());
+    words.AddString(wktOf(file.target).c_str());
     return madeBy<GDALWarpAppOptionsNew, GDALWarpAppOptionsFree>(
-        words, "bring \"" + file.path() + "\" to latitude and longitude", [&](auto* options, int* usageError) {
+        words, "bring \"" + file.input.path + "\" to latitude and longitude", [&](auto* options, int* usageError) {
             GDALDatasetH source = GDALDataset::ToHandle(&dataset);
             return GDALWarp("", nullptr, 1, &source, options, usageError);
         });
@@ -238,12 +238,12 @@ void BlendBand::describe(std::ostream& out) const {
 RasterLayer::RasterLayer(Members members, std::optional<int> tileCells) : _members(std::move(members)) {
     _spacingDeg = std::numeric_limits<double>::infinity();
     for (const Member& member : _members)
-        _spacingDeg = std::min({_spacingDeg, member.file->eastDeg(), member.file->northDeg()});
+        _spacingDeg = std::min({_spacingDeg, member.file.eastDeg, member.file.northDeg});
     if (_members.size() > 1) _mosaic = mosaicOf(_members);
-    if (first().isPlain()) {
+    if (first().isPlain) {
         for (Member& member : _members) {
-            GDALDataset& own = member.file->dataset();
-            member.grid = RasterGrid(member.file->transform(), own.GetRasterXSize(), own.GetRasterYSize());
+            GDALDataset& own = *member.file.dataset;
+            member.grid = RasterGrid(member.file.transform, own.GetRasterXSize(), own.GetRasterYSize());
         }
     } else {
         warp(tileCells);
@@ -257,35 +257,34 @@ RasterLayer::RasterLayer(Members members, std::optional<int> tileCells) : _membe
 void RasterLayer::warp(std::optional<int> tileCells) {
     double dx = std::numeric_limits<double>::infinity();
     double dy = std::numeric_limits<double>::infinity();
-    RectDeg area = first().extent();
+    RectDeg area = first().extent;
     for (const Member& member : _members) {
-        dx = std::min(dx, member.file->eastDeg());
-        dy = std::min(dy, member.file->northDeg());
-        area = hullOf(area, member.file->extent());
+        dx = std::min(dx, member.file.eastDeg);
+        dy = std::min(dy, member.file.northDeg);
+        area = hullOf(area, member.file.extent);
     }
     if (tileCells) {
         dx = std::ldexp(TileLayout::kStartTileDeg / *tileCells, -TileLayout::levelFor(_spacingDeg, *tileCells));
         dy = dx;
     }
-    _warped = warped(_mosaic ? *_mosaic : first().dataset(), first(), Frame(area, dx, dy));
-    for (Member& member : _members) member.grid = Frame(member.file->extent(), dx, dy).grid();
+    _warped = warped(_mosaic ? *_mosaic : *first().dataset, first(), Frame(area, dx, dy));
+    for (Member& member : _members) member.grid = Frame(member.file.extent, dx, dy).grid();
 }
 
 GDALDataset& RasterLayer::dataset() const noexcept {
-    return _warped ? *_warped : _mosaic ? *_mosaic : first().dataset();
+    return _warped ? *_warped : _mosaic ? *_mosaic : *first().dataset;
 }
 
 RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::vector<DemInput>& rasters,
                                           bool areElevation, double spacingDeg, std::optional<int> tileCells) {
     std::vector<Members> groups;
     for (std::size_t number = 0; number < rasters.size(); ++number) {
-        Members own(1);
-        own.front().number = number;
-        own.front().file = std::make_unique<RasterFile>(settings, rasters[number], areElevation, spacingDeg);
-        const RasterFile& file = *own.front().file;
+        Members own;
+        own.push_back({number, RasterFile(settings, rasters[number], areElevation, spacingDeg), {}, {}, {}});
+        const RasterFile& file = own.front().file;
         // All groups that the raster joins become one with it.
         const auto apart = std::stable_partition(groups.begin(), groups.end(), [&](const Members& group) {
-            return std::none_of(group.begin(), group.end(), [&](const auto& m) { return haveOneGrid(*m.file, file); });
+            return std::none_of(group.begin(), group.end(), [&](const auto& m) { return haveOneGrid(m.file, file); });
         });
         for (auto group = apart; group != groups.end(); ++group)
             std::move(group->begin(), group->end(), std::back_inserter(own));
@@ -293,12 +292,12 @@ RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::v
         std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
         groups.push_back(std::move(own));
     }
-    std::sort(groups.begin(), groups.end(),
-              [](const Members& a, const Members& b) { return a.front().number < b.front().number; });
     Layers layers;
     for (Members& group : groups) layers.push_back(std::make_unique<RasterLayer>(std::move(group), tileCells));
-    std::stable_sort(layers.begin(), layers.end(),
-                     [](const auto& a, const auto& b) { return a->spacingDeg() < b->spacingDeg(); });
+    std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) {
+        return std::pair(a->spacingDeg(), a->members().front().number) <
+               std::pair(b->spacingDeg(), b->members().front().number);
+    });
     std::vector<RasterGrid> all;
     for (const auto& layer : layers)
         for (const Member& member : layer->_members) all.push_back(member.grid);

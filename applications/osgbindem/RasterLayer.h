@@ -68,7 +68,7 @@ public:
     /// A raster, its number on the command line and the part of the layer that it may have data in.
     struct Member {
         std::size_t number = 0;
-        std::unique_ptr<RasterFile> file;
+        RasterFile file;
         RasterGrid grid;
         PixelWindow window;
         BlendBand band;
@@ -81,8 +81,8 @@ public:
     RasterLayer& operator=(const RasterLayer&) = delete;
 
     [[nodiscard]] const Members& members() const noexcept { return _members; }
-    [[nodiscard]] const std::string& path() const noexcept { return first().path(); }
-    [[nodiscard]] const std::string& vertical() const noexcept { return first().vertical(); }
+    [[nodiscard]] const std::string& path() const noexcept { return first().input.path; }
+    [[nodiscard]] const std::string& vertical() const noexcept { return first().vertical; }
 
     [[nodiscard]] GDALDataset& dataset() const noexcept;
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _grid; }
@@ -100,7 +100,7 @@ public:
 private:
     [[nodiscard]] static Layers layersOf(const Settings& settings, const std::vector<DemInput>& rasters,
                                          bool areElevation, double spacingDeg, std::optional<int> tileCells);
-    [[nodiscard]] const RasterFile& first() const noexcept { return *_members.front().file; }
+    [[nodiscard]] const RasterFile& first() const noexcept { return _members.front().file; }
     void warp(std::optional<int> tileCells);
 
     Members _members;
