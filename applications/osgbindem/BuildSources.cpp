@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BuildSources.h"
-
+#include "DatabaseBuilder.h"
 #include "RasterLayer.h"
 #include "VoidFill.h"
 

@@ -5,11 +5,15 @@
 
 #include "Checksum.h"
 #include "Failure.h"
+#include "Interruption.h"
 #include "RecordStream.h"
 #include "TextFile.h"
-#include "TileFiles.h"
+#include "TileBuilder.h"
+
+#include <cpl_string.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -29,6 +33,23 @@ namespace {
 
 // Behind the name of what is not complete.
 constexpr const char* kPartial = ".partial";
+
+// A folder holds the files of this many levels and one folder for each tile of the next: 341 files, 1024 folders.
+constexpr int kLevelsPerFolder = 5;
+
+/// The folder, below that of all tiles, with the file of a tile's children.
+std::string folderOf(const TileId& tile) {
+    std::string folder = startName(tile);
+    for (int level = kLevelsPerFolder; level <= tile.level; level += kLevelsPerFolder) {
+        folder += "/" + tileName(tile.ancestor(level));
+    }
+    return folder;
+}
+
+/// Files are named for the south-western of the four tiles in them.
+std::string fileOf(const TileId& tile) {
+    return tileName(tile.children()[0]) + ".osgb";
+}
 
 /// One description of the bytes for both directions, the grid aside.
 template <class Stream, class Record>
@@ -59,6 +80,59 @@ std::vector<fs::path> finestFirst(const std::string& folder, const std::string& 
 }
 
 }  // namespace
+
+std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept {
+    const int place[] = {tile.level, tile.x, tile.y};
+    return support::checksumOf(content, support::checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
+}
+
+std::string startName(const TileId& tile) {
+    const TileId start = tile.ancestor(0);
+    return CPLSPrintf("X%02d_Y%d", start.x, start.y);
+}
+
+bool isStartName(const std::string& name) {
+    int x = 0;
+    int y = 0;
+    return std::sscanf(name.c_str(), "X%2d_Y%1d", &x, &y) == 2 && name == startName({0, x, y});
+}
+
+std::string tileName(const TileId& tile) {
+    return CPLSPrintf("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
+}
+
+TileFiles::TileFiles(std::string folder, std::string finalName, int startLevel)
+    : _folder(std::move(folder)), _finalName(std::move(finalName)), _startLevel(startLevel) {}
+
+std::string TileFiles::childrenFile(const TileId& tile) const {
+    const std::string file = fileOf(tile);
+    if (tile.level == _startLevel) return _finalName + "/" + folderOf(tile) + "/" + file;
+    return tile.level % kLevelsPerFolder == 0 ? tileName(tile) + "/" + file : file;
+}
+
+std::string TileFiles::pathOfChildren(const TileId& tile) const {
+    return _folder + "/" + folderOf(tile) + "/" + fileOf(tile);
+}
+
+bool TileFiles::hasChildren(const TileId& tile) const {
+    std::error_code error;
+    return fs::exists(pathOfChildren(tile), error);
+}
+
+void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) const {
+    const std::string folder = _folder + "/" + folderOf(tile);
+    support::makeFolder(folder);
+    support::writeFile(folder + "/" + fileOf(tile), bytes);
+}
+
+std::uint64_t TileFiles::checksumBelow(const TileId& tile) const {
+    support::throwIfStopRequested();
+    if (!hasChildren(tile)) return 0;
+    std::uint64_t sum = fileChecksum(tile, support::contentOf(pathOfChildren(tile)));
+    if (tile.level + 1 >= TileLayout::kDeepest) return sum;
+    for (const TileId& child : tile.children()) sum += checksumBelow(child);
+    return sum;
+}
 
 DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile), _sources(rootFile + ".sources") {
     const fs::path path(rootFile);

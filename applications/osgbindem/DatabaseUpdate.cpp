@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BuildSources.h"
-#include "DatabaseFolder.h"
+#include "DatabaseBuilder.h"
 #include "Failure.h"
 #include "SkirtMeasure.h"
-#include "TaskWork.h"
 #include "TileBuilder.h"
-#include "TileFiles.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>

@@ -3,8 +3,9 @@
 
 #include "TileBuilder.h"
 
+#include "Failure.h"
 #include "Interruption.h"
-#include "TileFiles.h"
+#include "ModuleFolder.h"
 #include "TileNode.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -12,12 +13,16 @@
 
 #include <ogr_spatialref.h>
 #include <osg/LightModel>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/Registry>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 using osgAnalyticBin::AnalyticBin;
@@ -38,6 +43,21 @@ void takePosts(SurveyedTile& parent, SurveyedTile& child) {
     for (int row = 0; row <= half; ++row)
         for (int column = 0; column <= half; ++column)
             heightIn(parent.grid, firstColumn + column, firstRow + row) = heightIn(child.grid, 2 * column, 2 * row);
+}
+
+/// The bytes of an .osgb file with the node. Throws Failure.
+std::string nodeFileBytes(const osg::Node& node, bool compress) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setPluginStringData("fileType", "Binary");
+    options->setPluginStringData("WriteImageHint", "IncludeData");
+    if (compress) options->setPluginStringData("Compressor", "zlib");
+    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
+    if (writer == nullptr)
+        throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
+    std::ostringstream stream;
+    const osgDB::ReaderWriter::WriteResult result = writer->writeNode(node, stream, options);
+    if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
+    return stream.str();
 }
 
 }  // namespace
@@ -186,6 +206,17 @@ osg::ref_ptr<osg::CoordinateSystemNode> litRoot(const Settings& settings) {
 }
 
 }  // namespace
+
+void prepareNodeFiles() {
+    osgAnalyticBin::addModuleFolder();
+    for (const char* name : {"osg::Group", "osgAnalyticBin::InstallBinsCallback", "osgAnalyticBin::PackedTerrain"}) {
+        if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name) == nullptr) {
+            throw Failure(std::string("OpenSceneGraph finds no serializer for ") + name +
+                          "; install this library's modules or set OSG_LIBRARY_PATH");
+        }
+    }
+    (void)nodeFileBytes(*osg::ref_ptr<osg::Node>(new osg::Group), true);
+}
 
 std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
                           const TileLayout& layout) {

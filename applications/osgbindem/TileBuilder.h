@@ -3,11 +3,11 @@
 
 #pragma once
 
+#include "DatabaseFolder.h"
 #include "DemMosaic.h"
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
-#include "TileFiles.h"
 #include "TileMesh.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -136,6 +136,10 @@ private:
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;
 };
+
+/// Makes ready what OpenSceneGraph loads on first use, so that threads find everything loaded.
+/// Throws Failure when the classes of a database cannot be stored.
+void prepareNodeFiles();
 
 /// The bytes of the root file. Throws Failure.
 [[nodiscard]] std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "DatabaseBuilder.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "ProgramRun.h"
-#include "TaskWork.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>

@@ -9,7 +9,6 @@
 #include "Ranks.h"
 #include "Settings.h"
 #include "TileBuilder.h"
-#include "TileFiles.h"
 
 #include <cpl_progress.h>
 
@@ -18,6 +17,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace osgbindem {
@@ -31,6 +31,20 @@ void buildDatabase(const Settings& settings, const Ranks& ranks);
 /// Throws Failure, Interrupted; then the database is as it was, or, if the new files were on their way into it already,
 /// the next run of the program brings in the rest.
 void updateDatabase(const Settings& settings);
+
+/// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their
+/// sizes and times. Two runs with the same text build the same files.
+[[nodiscard]] std::string describeSources(const Settings& settings, const TileLayout& layout);
+
+/// Where heights, how fine they are, or colours may have changed since a database was built: rectangles of posts, with
+/// the cells between them and their neighbours.
+using ChangedArea = std::vector<RectDeg>;
+
+/// Whether one of them has a point in common with the rectangle; longitudes count modulo 360, a pole is one point.
+[[nodiscard]] bool touches(const ChangedArea& area, const RectDeg& rect) noexcept;
+
+/// Compares the descriptions of two databases. Returns: nullopt when more than rasters and images differs.
+[[nodiscard]] std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now);
 
 /// Shows how much is done; may be used by several threads. On a terminal it is a line that is written over, with the
 /// time that is left; elsewhere it is GDAL's row of numbers.
