@@ -58,7 +58,7 @@ void split(const Task& task, double most, const DemMosaic& mosaic, const TileLay
 /// Does a task, unless an earlier run has done it and its files are whole.
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     const auto known = site.folder.find(task.tile, site.layout);
-    if (known && known->checksum == site.files.checksumBelow(task.tile)) {
+    if (known && known->checksum == site.folder.files().checksumBelow(task.tile)) {
         site.progress.add(task.weight, true);
         return;
     }
@@ -99,7 +99,7 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
     for (int i = 0; i < site.settings.threads.value_or(1); ++i) {
         threads.push_back(std::async(std::launch::async, [&, mayLeave] {
             guarded([&] {
-                TileBuilder builder(site.settings, site.layout, site.files);
+                TileBuilder builder(site.settings, site.layout, site.folder.files());
                 if (site.standing)
                     builder.setFinishedTasks([&](const TileId& tile) { return site.standing(builder, tile); });
                 work(builder);

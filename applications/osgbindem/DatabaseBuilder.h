@@ -106,7 +106,6 @@ struct Site {
     Progress& progress;
     /// Of a database that is updated: finds tiles that stay as they are, with a builder of the thread.
     std::function<std::optional<SurveyedTile>(TileBuilder& builder, const TileId& tile)> standing = nullptr;
-    const TileFiles files = folder.files(layout);
 };
 
 /// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.

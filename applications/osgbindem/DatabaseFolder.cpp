@@ -101,12 +101,12 @@ std::string tileName(const TileId& tile) {
     return CPLSPrintf("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
 }
 
-TileFiles::TileFiles(std::string folder, std::string finalName, int startLevel)
-    : _folder(std::move(folder)), _finalName(std::move(finalName)), _startLevel(startLevel) {}
+TileFiles::TileFiles(std::string folder, std::string finalName)
+    : _folder(std::move(folder)), _finalName(std::move(finalName)) {}
 
-std::string TileFiles::childrenFile(const TileId& tile) const {
+std::string TileFiles::childrenFile(const TileId& tile, bool isInRoot) const {
     const std::string file = fileOf(tile);
-    if (tile.level == _startLevel) return _finalName + "/" + folderOf(tile) + "/" + file;
+    if (isInRoot) return _finalName + "/" + folderOf(tile) + "/" + file;
     return tile.level % kLevelsPerFolder == 0 ? tileName(tile) + "/" + file : file;
 }
 
@@ -134,13 +134,17 @@ std::uint64_t TileFiles::checksumBelow(const TileId& tile) const {
     return sum;
 }
 
-DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile), _sources(rootFile + ".sources") {
+DatabaseFolder::DatabaseFolder(const std::string& rootFile)
+    : _rootFile(rootFile),
+      _sources(rootFile + ".sources"),
+      _tilesName(fs::path(rootFile).stem().string() + "_tiles"),
+      _tiles((fs::path(rootFile).parent_path() / _tilesName).string()),
+      _partial(_tiles + kPartial),
+      _old(_tiles + ".old"),
+      _oldState(_tiles + ".state"),
+      _files(_partial, _tilesName),
+      _standingFiles(_tiles, _tilesName) {
     const fs::path path(rootFile);
-    _tilesName = path.stem().string() + "_tiles";
-    _tiles = (path.parent_path() / _tilesName).string();
-    _partial = _tiles + kPartial;
-    _old = _tiles + ".old";
-    _oldState = _tiles + ".state";
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
@@ -282,8 +286,8 @@ void DatabaseFolder::complete(const std::string& rootBytes, const std::string& s
 void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sources,
                            const std::vector<TileId>& removed) {
     std::string names;
-    const TileFiles files(_tiles, _tilesName, 0);  // paths are the same for any start level
-    for (const TileId& tile : removed) names += fs::relative(files.pathOfChildren(tile), _tiles).string() + '\n';
+    for (const TileId& tile : removed)
+        names += fs::relative(_standingFiles.pathOfChildren(tile), _tiles).string() + '\n';
     support::makeFolder(stateFolder());
     writeRoot(rootBytes, sources);
     writeFile(mergeFile(), names);

@@ -28,12 +28,11 @@ namespace osgbindem {
 /// The files with tiles, below one folder. May be used by several threads and programs at once, for different tiles.
 class TileFiles final {
 public:
-    /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have; `startLevel`:
-    /// of the tiles in the root file.
-    TileFiles(std::string folder, std::string finalName, int startLevel);
+    /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have.
+    TileFiles(std::string folder, std::string finalName);
 
-    /// Name of the file with the children of a tile, seen from the file that has the tile.
-    [[nodiscard]] std::string childrenFile(const TileId& tile) const;
+    /// Name of the file with the children of a tile, seen from the file that has the tile, which may be the root file.
+    [[nodiscard]] std::string childrenFile(const TileId& tile, bool isInRoot) const;
 
     /// Writes the file with the children of a tile. Throws Failure.
     void writeChildren(const TileId& tile, const std::string& bytes) const;
@@ -48,7 +47,6 @@ public:
 private:
     std::string _folder;
     std::string _finalName;
-    int _startLevel;
 };
 
 struct SurveyedTile;
@@ -82,15 +80,11 @@ public:
     void clear();
 
     [[nodiscard]] const std::string& partial() const { return _partial; }
-    [[nodiscard]] TileFiles files(const TileLayout& layout) const {
-        return {_partial, _tilesName, layout.startLevel()};
-    }
+    [[nodiscard]] const TileFiles& files() const { return _files; }
 
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
     /// The files of the complete database.
-    [[nodiscard]] TileFiles standingFiles(const TileLayout& layout) const {
-        return {_tiles, _tilesName, layout.startLevel()};
-    }
+    [[nodiscard]] const TileFiles& standingFiles() const { return _standingFiles; }
     /// What the complete database is built from; empty when there is none or nobody knows.
     [[nodiscard]] std::string standingSources() const;
 
@@ -134,6 +128,8 @@ private:
     std::string _partial;
     std::string _old;
     std::string _oldState;
+    TileFiles _files;
+    TileFiles _standingFiles;
     std::optional<osgAnalyticBin::support::LockedFile> _lock;
 };
 

@@ -52,7 +52,7 @@ class Update final {
 public:
     Update(const DatabaseFolder& folder, const TileLayout& layout, ChangedArea area)
         : _layout(layout),
-          _files(folder.standingFiles(layout)),
+          _files(folder.standingFiles()),
           _starts(binsFrom(folder.rootFile(), layout.startTiles().size())),
           _area(std::move(area)) {}
 
@@ -114,7 +114,7 @@ private:
 
     const TileLayout& _layout;
     /// Of the database as it is.
-    const TileFiles _files;
+    const TileFiles& _files;
     /// Bins of the start tiles.
     const std::vector<AnalyticBin> _starts;
     const ChangedArea _area;
@@ -155,8 +155,7 @@ void updateDatabase(const Settings& given) {
     folder.clear();
     std::vector<Task> tasks;
     {
-        const TileFiles files = folder.files(layout);
-        TileBuilder builder(settings, layout, files);
+        TileBuilder builder(settings, layout, folder.files());
         const std::vector<Task> plan = planTasks(builder.mosaic(), layout);
         std::copy_if(plan.begin(), plan.end(), std::back_inserter(tasks),
                      [&](const Task& task) { return update.hasChanged(builder, task.tile); });

@@ -4,9 +4,13 @@
 #include "SkirtMeasure.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace osgbindem {
 
@@ -38,169 +42,185 @@ int SkirtMeasure::coarsestAcross(const TileId& tile, Edge edge) {
     return level;
 }
 
-/// One edge of a tile as its posts in space.
-struct SkirtMeasure::Line {
-    Edge edge;
-    TileId tile;
-    /// The edge's first post, in the grid of the tile's level.
-    PostId first;
-    std::vector<glm::dvec3> points;
-    std::vector<double> heights;
-
-    [[nodiscard]] bool isParallel() const { return edge == Edge::South || edge == Edge::North; }
-    /// The post at a distance along the edge, counted in posts of its level.
-    [[nodiscard]] PostId post(int level, std::int64_t along, std::int64_t across) const {
-        return isParallel() ? PostId{level, along, across} : PostId{level, across, along};
-    }
-    /// The tile at a place along the edge, counted from its first post, on the own tile's side.
-    [[nodiscard]] TileId tileAt(int level, std::int64_t place) const {
-        const int shift = level - tile.level;
-        const int last = (1 << shift) - 1;
-        TileId found{level, tile.x << shift, tile.y << shift};
-        (isParallel() ? found.x : found.y) += static_cast<int>(place);
-        if (edge == Edge::North) found.y += last;
-        if (edge == Edge::East) found.x += last;
-        return found;
-    }
-    [[nodiscard]] std::int64_t along() const { return isParallel() ? first.column : first.row; }
-    [[nodiscard]] std::int64_t across() const { return isParallel() ? first.row : first.column; }
-};
-
 namespace {
 
-// A drop that is no small part of the relief between two posts: there the skirt ends level at the lowest point of the
-// finer edges instead of hanging down by the drop from both posts, which would be far below the ground at the lower
-// one.
-constexpr double kCliff = 0.25;
+/// How far the polyline of an edge is above other ones, and how far it falls short of them outward.
+struct Gap {
+    double drop = 0.0;
+    double lean = 0.0;
 
-void raise(double& value, double candidate) {
-    value = std::max(value, candidate);
-}
+    void expandBy(const Gap& other) {
+        drop = std::max(drop, other.drop);
+        lean = std::max(lean, other.lean);
+    }
+};
 
 glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
 
-/// How far a point of the own polyline is above the other one, and how far it falls short of it outward.
-struct Gap {
-    double drop;
-    double reach;
+/// One edge of a tile as its posts in space, south to north or west to east, and the gap below each of them.
+class EdgeLine final {
+public:
+    EdgeLine(SkirtMeasure& tiles, DemMosaic& mosaic, const TileLayout& layout, const TileId& tile, Edge edge,
+             const TerrainGrid& grid)
+        : _tiles(tiles),
+          _mosaic(mosaic),
+          _layout(layout),
+          _tile(tile),
+          _edge(edge),
+          _isParallel(edge == Edge::South || edge == Edge::North),
+          _gaps(static_cast<std::size_t>(layout.posts())) {
+        PostId first = layout.firstPost(tile, tile.level);
+        if (edge == Edge::North) first.row += layout.cells();
+        if (edge == Edge::East) first.column += layout.cells();
+        _along = _isParallel ? first.column : first.row;
+        _across = _isParallel ? first.row : first.column;
+        for (int i = 0; i < layout.posts(); ++i) {
+            const PostId own = post(tile.level, _along + i, _across);
+            _heights.push_back(grid.height(static_cast<int>(own.column - grid.firstColumn),
+                                           static_cast<int>(own.row - grid.firstRow)));
+            _points.push_back(ecef(own, _heights.back()));
+        }
+    }
+
+    [[nodiscard]] const std::vector<Gap>& gaps() const { return _gaps; }
+
+    /// With all levels of tiles that stand along the edge, and only where they do.
+    void compareWithFiner() {
+        // A drop that is no small part of the relief between two posts: there the skirt ends level at the lowest point
+        // of the finer edges instead of hanging down by the drop from both posts, which would be far below the ground
+        // at the lower one.
+        constexpr double kCliff = 0.25;
+        Segments segments;
+        addFiner(_tile.level, 0, segments);
+        for (const auto& [levelAndPlace, segment] : segments) {
+            const std::size_t i = levelAndPlace.second;
+            const double drop = segment.gap.drop;
+            const bool isCliff = drop > kCliff * std::abs(_heights[i + 1] - _heights[i]) &&
+                                 segment.lowest > std::min(_heights[i], _heights[i + 1]) - drop;
+            for (const std::size_t end : {i, i + 1})
+                _gaps[end].expandBy({isCliff ? _heights[end] - segment.lowest : drop, segment.gap.lean});
+        }
+    }
+
+    void compareWithCoarser(int level) {
+        const int shift = _tile.level - level;
+        const std::int64_t parts = std::int64_t{1} << shift;
+        for (std::size_t i = 0; i < _points.size(); ++i) {
+            const std::int64_t along = _along + static_cast<std::int64_t>(i);
+            const std::int64_t part = along % parts;
+            if (part == 0) continue;
+            const PostId before = post(level, along >> shift, _across >> shift);
+            const PostId after = post(level, (along >> shift) + 1, _across >> shift);
+            const glm::dvec3 other =
+                between(ecef(before, heightAt(before)), ecef(after, heightAt(after)), shareOf(part, parts));
+            _gaps[i].expandBy(gapBetween(_points[i], other, post(_tile.level, along, _across)));
+        }
+    }
+
+private:
+    /// What finer posts between two posts of the edge are below the chord.
+    struct Segment {
+        Gap gap;
+        double lowest;
+    };
+    /// By level and first post.
+    using Segments = std::map<std::pair<int, std::size_t>, Segment>;
+
+    [[nodiscard]] static double shareOf(std::int64_t part, std::int64_t parts) {
+        return static_cast<double>(part) / static_cast<double>(parts);
+    }
+    /// The post at a distance along the edge, counted in posts of its level.
+    [[nodiscard]] PostId post(int level, std::int64_t along, std::int64_t across) const {
+        return _isParallel ? PostId{level, along, across} : PostId{level, across, along};
+    }
+    /// The tile at a place along the edge, counted from its first post, on the own tile's side.
+    [[nodiscard]] TileId tileAt(int level, std::int64_t place) const {
+        const int shift = level - _tile.level;
+        const int last = (1 << shift) - 1;
+        TileId found{level, _tile.x << shift, _tile.y << shift};
+        (_isParallel ? found.x : found.y) += static_cast<int>(place);
+        if (_edge == Edge::North) found.y += last;
+        if (_edge == Edge::East) found.x += last;
+        return found;
+    }
+    [[nodiscard]] double heightAt(const PostId& post) const { return _mosaic.height(_layout.position(post)); }
+    [[nodiscard]] glm::dvec3 ecef(const PostId& post, double height) const {
+        return _layout.ellipsoid().toEcef(_layout.geodetic(post, height));
+    }
+    [[nodiscard]] Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const PostId& post) const {
+        const auto [latitude, longitude, altitude] = _layout.geodetic(post, 0.0);
+        const glm::dvec3 up = _layout.ellipsoid().up(latitude, longitude);
+        const glm::dvec3 north{-up.z * std::cos(longitude), -up.z * std::sin(longitude), std::cos(latitude)};
+        const glm::dvec3 way = other - own;
+        const double outward = _edge == Edge::North ? 1.0 : _edge == Edge::South ? -1.0 : 0.0;
+        return {-glm::dot(way, up), outward * glm::dot(way, north)};
+    }
+
+    /// The tiles below those at a place along the edge, see tileAt().
+    void addFiner(int level, std::int64_t place, Segments& segments) const {
+        const TileId tile = tileAt(level, place);
+        const auto other = tile.neighbour(_edge);
+        if (!_tiles.hasChildren(tile) && !(other && _tiles.hasChildren(*other))) return;
+        const int shift = level + 1 - _tile.level;
+        const std::int64_t parts = std::int64_t{1} << shift;
+        const std::int64_t posts = std::int64_t{2} * _layout.cells();
+        // Even posts belong to the levels between, which are compared by themselves.
+        for (std::int64_t along = place * posts + 1; along < (place + 1) * posts; along += 2) {
+            const auto i = static_cast<std::size_t>(along >> shift);
+            const double lowest = std::min(_heights[i], _heights[i + 1]);
+            Segment& segment = segments.try_emplace({level, i}, Segment{{}, lowest}).first->second;
+            const PostId finer = post(level + 1, (_along << shift) + along, _across << shift);
+            const double height = heightAt(finer);
+            const glm::dvec3 own = between(_points[i], _points[i + 1], shareOf(along % parts, parts));
+            segment.gap.expandBy(gapBetween(own, ecef(finer, height), finer));
+            segment.lowest = std::min(segment.lowest, height);
+        }
+        for (const std::int64_t child : {2 * place, 2 * place + 1}) addFiner(level + 1, child, segments);
+    }
+
+    SkirtMeasure& _tiles;
+    DemMosaic& _mosaic;
+    const TileLayout& _layout;
+    TileId _tile;
+    Edge _edge;
+    /// Or a meridian.
+    bool _isParallel;
+    /// The first post, in the grid of the tile's level.
+    std::int64_t _along = 0;
+    std::int64_t _across = 0;
+    std::vector<glm::dvec3> _points;
+    std::vector<double> _heights;
+    std::vector<Gap> _gaps;
 };
 
-Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const PostId& post, const TileLayout& layout,
-               Edge edge) {
-    const auto [latitude, longitude, altitude] = layout.geodetic(post, 0.0);
-    const glm::dvec3 up = layout.ellipsoid().up(latitude, longitude);
-    const glm::dvec3 north{-up.z * std::cos(longitude), -up.z * std::sin(longitude), std::cos(latitude)};
-    const glm::dvec3 way = other - own;
-    const double outward = edge == Edge::North ? 1.0 : edge == Edge::South ? -1.0 : 0.0;
-    return {-glm::dot(way, up), outward * glm::dot(way, north)};
-}
-
-PostId firstPostOf(const TileId& tile, const TileLayout& layout, Edge edge) {
-    PostId post = layout.firstPost(tile, tile.level);
-    if (edge == Edge::North) post.row += layout.cells();
-    if (edge == Edge::East) post.column += layout.cells();
-    return post;
+std::int32_t stepsUp(double metres) {
+    return static_cast<std::int32_t>(std::ceil(metres / TerrainGrid::kStep));
 }
 
 }  // namespace
 
-glm::dvec3 SkirtMeasure::ecef(const PostId& post) {
-    return _layout.ellipsoid().toEcef(_layout.geodetic(post, _mosaic.height(_layout.position(post))));
-}
-
 void SkirtMeasure::measure(const TileId& tile, TerrainGrid& grid) {
-    const auto stepsUp = [](const std::vector<double>& metres) {
-        std::vector<std::int32_t> steps;
-        for (const double value : metres)
-            steps.push_back(static_cast<std::int32_t>(std::ceil(value / TerrainGrid::kStep)));
-        return steps;
-    };
     for (const Edge edge : kEdges) {
-        const EdgeSkirt skirt = measureEdge(tile, grid, edge);
-        grid.skirts[static_cast<std::size_t>(edge)] = {stepsUp(skirt.depth), stepsUp(skirt.lean)};
-    }
-}
+        TerrainGrid::Skirt& skirt = grid.skirts[static_cast<std::size_t>(edge)];
+        skirt.depth.assign(static_cast<std::size_t>(_layout.posts()), 0);
+        skirt.lean = skirt.depth;
+        if (!tile.neighbour(edge)) continue;  // a pole: the edge is one point
 
-SkirtMeasure::EdgeSkirt SkirtMeasure::measureEdge(const TileId& tile, const TerrainGrid& grid, Edge edge) {
-    const std::size_t count = static_cast<std::size_t>(_layout.posts());
-    EdgeSkirt skirt{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-    if (!tile.neighbour(edge)) return skirt;  // a pole: the edge is one point
+        EdgeLine own(*this, _mosaic, _layout, tile, edge, grid);
+        own.compareWithFiner();
+        const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, coarsestAcross(tile, edge)));
+        for (int level = tile.level - 1; level >= coarsest; --level) own.compareWithCoarser(level);
 
-    Line own{edge, tile, firstPostOf(tile, _layout, edge), {}, {}};
-    for (int i = 0; i < _layout.posts(); ++i) {
-        const PostId post = own.post(tile.level, own.along() + i, own.across());
-        own.heights.push_back(
-            grid.height(static_cast<int>(post.column - grid.firstColumn), static_cast<int>(post.row - grid.firstRow)));
-        own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
-    }
-    compareWithFiner(own, skirt);
-    const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, coarsestAcross(tile, edge)));
-    for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
-
-    // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor
-    // covers the bend between compared points.
-    constexpr double kFactor = 1.05;
-    const double safety = 2.0 * _layout.quantum(coarsest) + TerrainGrid::kStep;
-    for (double& depth : skirt.depth) depth = kFactor * depth + safety;
-    for (double& lean : skirt.lean) lean *= kFactor;
-    return skirt;
-}
-
-void SkirtMeasure::addFiner(const Line& own, int level, std::int64_t place, Segments& segments) {
-    const TileId tile = own.tileAt(level, place);
-    const auto other = tile.neighbour(own.edge);
-    if (!hasChildren(tile) && !(other && hasChildren(*other))) return;
-    const int shift = level + 1 - own.tile.level;
-    const std::int64_t parts = std::int64_t{1} << shift;
-    const std::int64_t posts = std::int64_t{2} * _layout.cells();
-    // Even posts belong to the levels between, which are compared by themselves.
-    for (std::int64_t along = place * posts + 1; along < (place + 1) * posts; along += 2) {
-        const auto i = static_cast<std::size_t>(along >> shift);
-        const double ends = std::min(own.heights[i], own.heights[i + 1]);
-        Segment& segment = segments.try_emplace({level, i}, Segment{0.0, 0.0, ends}).first->second;
-        const PostId post = own.post(level + 1, (own.along() << shift) + along, own.across() << shift);
-        const double share = static_cast<double>(along % parts) / static_cast<double>(parts);
-        const double height = _mosaic.height(_layout.position(post));
-        const Gap gap = gapBetween(between(own.points[i], own.points[i + 1], share),
-                                   _layout.ellipsoid().toEcef(_layout.geodetic(post, height)), post, _layout, own.edge);
-        raise(segment.drop, gap.drop);
-        raise(segment.lean, gap.reach);
-        segment.lowest = std::min(segment.lowest, height);
-    }
-    for (const std::int64_t child : {2 * place, 2 * place + 1}) addFiner(own, level + 1, child, segments);
-}
-
-void SkirtMeasure::compareWithFiner(const Line& own, EdgeSkirt& skirt) {
-    Segments segments;
-    addFiner(own, own.tile.level, 0, segments);
-    for (const auto& [levelAndPlace, segment] : segments) {
-        const std::size_t i = levelAndPlace.second;
-        const std::array<double, 2> ends{own.heights[i], own.heights[i + 1]};
-        const bool isCliff = segment.drop > kCliff * std::abs(ends[1] - ends[0]) &&
-                             segment.lowest > std::min(ends[0], ends[1]) - segment.drop;
-        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-            raise(skirt.depth[i + end], isCliff ? ends[end] - segment.lowest : segment.drop);
-            raise(skirt.lean[i + end], segment.lean);
+        // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor
+        // covers the bend between compared points.
+        constexpr double kFactor = 1.05;
+        const double safety = 2.0 * _layout.quantum(coarsest) + TerrainGrid::kStep;
+        for (std::size_t i = 0; i < skirt.depth.size(); ++i) {
+            skirt.depth[i] = stepsUp(kFactor * own.gaps()[i].drop + safety);
+            skirt.lean[i] = stepsUp(kFactor * own.gaps()[i].lean);
         }
-    }
-}
-
-void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt) {
-    const int shift = own.tile.level - level;
-    const std::int64_t parts = std::int64_t{1} << shift;
-    for (std::size_t i = 0; i < own.points.size(); ++i) {
-        const std::int64_t along = own.along() + static_cast<std::int64_t>(i);
-        const std::int64_t part = along % parts;
-        if (part == 0) continue;
-        const glm::dvec3 a = ecef(own.post(level, along >> shift, own.across() >> shift));
-        const glm::dvec3 b = ecef(own.post(level, (along >> shift) + 1, own.across() >> shift));
-        const PostId post = own.post(own.tile.level, along, own.across());
-        const Gap gap = gapBetween(own.points[i], between(a, b, static_cast<double>(part) / static_cast<double>(parts)),
-                                   post, _layout, own.edge);
-        raise(skirt.depth[i], gap.drop);
-        raise(skirt.lean[i], gap.reach);
     }
 }
 

@@ -7,12 +7,7 @@
 #include "TerrainGrid.h"
 #include "TileLayout.h"
 
-#include <glm/vec3.hpp>
-
-#include <cstdint>
 #include <map>
-#include <utility>
-#include <vector>
 
 namespace osgbindem {
 
@@ -43,30 +38,6 @@ public:
     void measure(const TileId& tile, osgAnalyticBin::TerrainGrid& grid);
 
 private:
-    struct Line;
-    /// What hangs from one edge of a tile: metres per post, south to north or west to east.
-    struct EdgeSkirt {
-        std::vector<double> depth;
-        /// How far the lower end leans outward.
-        std::vector<double> lean;
-    };
-    /// What finer posts between two posts of an edge are below the chord, and fall short of it outward.
-    struct Segment {
-        double drop = 0.0;
-        double lean = 0.0;
-        double lowest = 0.0;
-    };
-    /// By level and first post.
-    using Segments = std::map<std::pair<int, std::size_t>, Segment>;
-
-    [[nodiscard]] EdgeSkirt measureEdge(const TileId& tile, const osgAnalyticBin::TerrainGrid& grid, Edge edge);
-    /// With all levels of tiles that stand along the edge, and only where they do.
-    void compareWithFiner(const Line& own, EdgeSkirt& skirt);
-    /// The tiles below those at a place along the edge, see Line::tileAt().
-    void addFiner(const Line& own, int level, std::int64_t place, Segments& segments);
-    void compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt);
-    [[nodiscard]] glm::dvec3 ecef(const PostId& post);
-
     DemMosaic& _mosaic;
     const TileLayout& _layout;
     std::map<TileId, bool> _known;

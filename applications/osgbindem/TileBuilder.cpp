@@ -184,7 +184,7 @@ BuiltTile TileBuilder::build(const TileId& id) {
     const osg::ref_ptr<osg::Image> image = grid.textureSize > 0 ? _images.texture(id, grid) : nullptr;
     built.geometry = makeGeometry(grid, image, _settings.packed);
     const TileFacts facts{built.bin, extent.surfaceLow, _layout, _settings.lodFactor,
-                          tile.below.valid() ? _files.childrenFile(id) : ""};
+                          tile.below.valid() ? _files.childrenFile(id, id.level == _layout.startLevel()) : ""};
     built.node = makeTileNode(id, *makePlaced(*built.geometry, grid.origin), facts);
     return built;
 }
