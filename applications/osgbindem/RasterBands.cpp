@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "RasterBands.h"
-
-#include "Failure.h"
+#include "RasterFile.h"
 
 #include <algorithm>
 #include <array>

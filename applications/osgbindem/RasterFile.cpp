@@ -3,7 +3,6 @@
 
 #include "RasterFile.h"
 
-#include "Failure.h"
 #include "Interruption.h"
 
 #include <gdal_alg.h>

@@ -124,45 +124,18 @@ constexpr double kAxisTolerance = 1.0;
 // Covers the rounding within GeodeticMeshBounds (1e-7 m).
 constexpr double kMargin = 1e-6;
 
-/// Finds which vertices and triangles of the surface can be at an end of the bin. All others are well within: in
-/// latitude and longitude those that do not stand at the border, whose neighbours are a whole cell away, and in
-/// altitude those that are higher than the lowest post by more than chords sag, and lower than the highest.
-class Extremes {
-public:
-    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid), _range(heightsOf(grid)) {
-        const auto posts = static_cast<std::size_t>(grid.cells + 1);
-        const double reach = std::max(std::abs(_range.lower), std::abs(_range.upper));
-        const osgAnalyticBin::core::GeodeticGridBounds bounds(
-            grid.ellipsoid,
-            {{rect.south * kRadiansPerDegree, rect.north * kRadiansPerDegree},
-             {rect.west * kRadiansPerDegree, rect.east * kRadiansPerDegree},
-             posts,
-             posts},
-            reach);
-        // vertices are rounded by less than a quantum; bounds of triangles are a little deeper than these sag
-        _rounding = 2.0 * grid.quantum;
-        _sag = 1.5 * bounds.sag() + _rounding;
-    }
-
-    [[nodiscard]] bool hasVertex(int column, int row) const {
-        const double height = _grid.height(column, row);
-        return column == 0 || row == 0 || column == _grid.cells || row == _grid.cells ||
-               height <= _range.lower + _rounding || height >= _range.upper - _rounding;
-    }
-
-    /// Either triangle of a cell.
-    [[nodiscard]] bool hasCell(int column, int row) const {
-        const double lowest = std::min(std::min(_grid.height(column, row), _grid.height(column + 1, row)),
-                                       std::min(_grid.height(column, row + 1), _grid.height(column + 1, row + 1)));
-        return row == 0 || row == _grid.cells - 1 || lowest <= _range.lower + _sag;
-    }
-
-private:
-    const TerrainGrid& _grid;
-    osgAnalyticBin::core::Interval _range;
-    double _rounding;
-    double _sag;
-};
+/// How far chords between posts of the grid sag below these, in metres, and a little more.
+double sagOf(const TerrainGrid& grid, const osgAnalyticBin::core::Interval& heights, const RectDeg& rect) {
+    const auto posts = static_cast<std::size_t>(grid.cells + 1);
+    const osgAnalyticBin::core::GeodeticGridBounds bounds(
+        grid.ellipsoid,
+        {{rect.south * kRadiansPerDegree, rect.north * kRadiansPerDegree},
+         {rect.west * kRadiansPerDegree, rect.east * kRadiansPerDegree},
+         posts,
+         posts},
+        std::max(std::abs(heights.lower), std::abs(heights.upper)));
+    return 1.5 * bounds.sag();
+}
 
 }  // namespace
 
@@ -216,15 +189,28 @@ MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& t
     const auto expandByTriangle = [&](std::size_t first) {
         bounds.expandByTriangle(drawn[triangles[first]], drawn[triangles[first + 1]], drawn[triangles[first + 2]]);
     };
-    const Extremes extremes(grid, rect);
+    // Only vertices and triangles that can be at an end of the bin are looked at. All others are well within: in
+    // latitude and longitude those that do not stand at the border, whose neighbours are a whole cell away, and in
+    // altitude those that are higher than the lowest post by more than chords sag, and lower than the highest.
+    const core::Interval heights = heightsOf(grid);
+    const double rounding = 2.0 * grid.quantum;  // vertices are rounded by less than a quantum
+    const double lowestChord = heights.lower + sagOf(grid, heights, rect) + rounding;
+    const int last = grid.cells;
     std::size_t vertex = 0;
-    for (int row = 0; row <= grid.cells; ++row)
-        for (int column = 0; column <= grid.cells; ++column, ++vertex)
-            if (extremes.hasVertex(column, row)) bounds.expandByVertex(drawn[vertex]);
+    for (int row = 0; row <= last; ++row) {
+        for (int column = 0; column <= last; ++column, ++vertex) {
+            const double height = grid.height(column, row);
+            if (column == 0 || row == 0 || column == last || row == last || height <= heights.lower + rounding ||
+                height >= heights.upper - rounding)
+                bounds.expandByVertex(drawn[vertex]);
+        }
+    }
     std::size_t index = 0;
-    for (int row = 0; row < grid.cells; ++row) {
-        for (int column = 0; column < grid.cells; ++column, index += 6) {
-            if (!extremes.hasCell(column, row)) continue;
+    for (int row = 0; row < last; ++row) {
+        for (int column = 0; column < last; ++column, index += 6) {
+            const double lowest = std::min({grid.height(column, row), grid.height(column + 1, row),
+                                            grid.height(column, row + 1), grid.height(column + 1, row + 1)});
+            if (row > 0 && row < last - 1 && lowest > lowestChord) continue;
             expandByTriangle(index);
             expandByTriangle(index + 3);
         }
