@@ -51,15 +51,6 @@ std::string fileOf(const TileId& tile) {
     return tileName(tile.children()[0]) + ".osgb";
 }
 
-/// One description of the bytes for both directions, the grid aside.
-template <class Stream, class Record>
-void passRecord(Stream& s, Record& tile) {
-    s.value(tile.range);
-    s.value(tile.tally);
-    s.value(tile.below);
-    s.value(tile.checksum);
-}
-
 void moveTo(const std::string& from, const std::string& to) {
     std::error_code error;
     fs::rename(from, to, error);
@@ -228,7 +219,7 @@ std::size_t DatabaseFolder::doneCount() const {
 void DatabaseFolder::keep(const SurveyedTile& tile) const {
     RecordWriter out;
     out.list(packed(tile.grid));
-    passRecord(out, tile);
+    out.value<TileFigures>(tile);
     const std::string file = recordOf(tile.id);
     support::makeFolder(fs::path(file).parent_path().string());
     writeFile(file, support::withChecksum(out.bytes));
@@ -243,7 +234,7 @@ std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileL
     try {
         RecordReader in(*whole);
         in.list(grid);
-        passRecord(in, found);
+        in.value<TileFigures>(found);
         if (!in.isAtEnd()) return std::nullopt;
     } catch (const std::out_of_range&) {
         return std::nullopt;

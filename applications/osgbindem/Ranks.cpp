@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
-#include <iterator>
 #include <sched.h>
 #include <thread>
 
@@ -20,10 +19,14 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-// Set by launchers that speak to MPI: Open MPI's mpirun; prrte and Slurm's srun --mpi=pmix; srun --mpi=pmi2 and others.
-// SLURM_PROCID is no sign: every program of a batch file has it.
-constexpr const char* kSizeVariables[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
-constexpr const char* kRankVariables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+/// Set by launchers that speak to MPI: Open MPI's mpirun; prrte and Slurm's srun --mpi=pmix; srun --mpi=pmi2 and
+/// others. SLURM_PROCID is no sign: every program of a batch file has it.
+const char* launchedRank() {
+    const char* rank = nullptr;
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+        if (!rank) rank = std::getenv(name);
+    return rank;
+}
 
 // What MPI says counts more than the environment: launcher and library may not know each other.
 std::optional<int> startedRank;
@@ -31,16 +34,12 @@ std::optional<int> startedRank;
 }  // namespace
 
 bool isStartedByMpi() {
-    return std::any_of(std::begin(kSizeVariables), std::end(kSizeVariables),
-                       [](const char* name) { return std::getenv(name) != nullptr; });
+    return launchedRank() != nullptr;
 }
 
 bool isSpeaker() {
     if (startedRank) return *startedRank == 0;
-    for (const char* name : kRankVariables) {
-        if (const char* value = std::getenv(name)) return std::atoi(value) == 0;
-    }
-    return true;
+    return !isStartedByMpi() || std::atoi(launchedRank()) == 0;
 }
 
 int threadsPerRank(const Ranks& ranks) {
@@ -60,7 +59,7 @@ std::unique_ptr<Ranks> joinRanks() {
     void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
     const auto join = library ? reinterpret_cast<JoinRanks>(dlsym(library, kJoinRanks)) : nullptr;
     if (!join) {
-        const char* size = std::getenv(kSizeVariables[0]);
+        const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
         if (size && std::atoi(size) == 1) return std::make_unique<Ranks>();  // launched alone
         throw Failure(
             "without its module for MPI osgbindem runs alone: run it without mpirun, or install the module "

@@ -86,10 +86,6 @@ bool looksLikeDegrees(const GeoTransform& t, int width, int height) {
            std::abs(t[3]) <= 90.0 + std::abs(t[5]) && std::abs(other) <= 90.0 + std::abs(t[5]);
 }
 
-bool hasNoRotation(const GeoTransform& t) {
-    return t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
-}
-
 // Whether all corners are at numbers that coordinates may be; GDAL brings degrees into range turn by turn.
 bool isPlausible(const GeoTransform& t, GDALDataset& dataset) {
     constexpr double kMostDegrees = 1e4;
@@ -104,25 +100,6 @@ bool isPlausible(const GeoTransform& t, GDALDataset& dataset) {
         }
     }
     return true;
-}
-
-void requireGeoreferencing(GDALDataset& dataset, const std::string& path) {
-    GeoTransform transform{};
-    const bool hasTransform = dataset.GetGeoTransform(transform.data()) == CE_None;
-    const bool hasControlPoints = dataset.GetGCPCount() > 0 && dataset.GetGCPSpatialRef() != nullptr;
-    if (!hasTransform && !hasControlPoints) {
-        throw Failure("no georeferencing in \"" + path + "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
-    }
-    if (!hasTransform) return;
-    if (!isPlausible(transform, dataset)) {
-        throw Failure("the coordinates of \"" + path + "\" are far from any globe; correct its georeferencing");
-    }
-    if (dataset.GetSpatialRef() == nullptr &&
-        (!hasNoRotation(transform) ||
-         !looksLikeDegrees(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()))) {
-        throw Failure("no reference system in \"" + path +
-                      "\", and its coordinates are not degrees; add one, for example with gdal_edit.py -a_srs");
-    }
 }
 
 bool isOfEarth(const OGRSpatialReference& reference) {
@@ -203,11 +180,30 @@ RasterFile::RasterFile(const Settings& settings, DemInput raster, bool isElevati
 void RasterFile::open(const Settings& settings, bool isElevation, int overview) {
     dataset.reset();
     file = opened(input.path, overview);
-    requireGeoreferencing(*file, input.path);
+    takeTransform();
     takeReference(settings.isWgs84);
     notes.clear();
     dataset = isElevation ? heightsOf(*file, settings, input, horizontal, notes) : coloursOf(*file, input.path);
     place();
+}
+
+void RasterFile::takeTransform() {
+    const GeoTransform& t = transform;
+    const bool hasTransform = file->GetGeoTransform(transform.data()) == CE_None;
+    isUnturned = hasTransform && t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
+    if (!hasTransform) {
+        if (file->GetGCPCount() > 0 && file->GetGCPSpatialRef() != nullptr) return;
+        throw Failure("no georeferencing in \"" + input.path +
+                      "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
+    }
+    if (!isPlausible(t, *file)) {
+        throw Failure("the coordinates of \"" + input.path + "\" are far from any globe; correct its georeferencing");
+    }
+    if (file->GetSpatialRef() == nullptr &&
+        !(isUnturned && looksLikeDegrees(t, file->GetRasterXSize(), file->GetRasterYSize()))) {
+        throw Failure("no reference system in \"" + input.path +
+                      "\", and its coordinates are not degrees; add one, for example with gdal_edit.py -a_srs");
+    }
 }
 
 void RasterFile::takeReference(bool isWgs84) {
@@ -267,7 +263,6 @@ bool RasterFile::isInDegreesOfGlobe() const {
 }
 
 void RasterFile::place() {
-    isUnturned = dataset->GetGeoTransform(transform.data()) == CE_None && hasNoRotation(transform);
     isPlain = isInDegreesOfGlobe();
     if (isPlain) {
         const double east = transform[0] + file->GetRasterXSize() * transform[1];

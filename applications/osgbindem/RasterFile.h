@@ -80,6 +80,7 @@ struct RasterFile {
 
 private:
     void open(const Settings& settings, bool isElevation, int overview);
+    void takeTransform();
     void takeReference(bool isWgs84);
     void place();
     void placeWarped();

@@ -114,10 +114,6 @@ void requireFiles(const Settings& settings) {
     }
 }
 
-std::string evenness(const std::string& word) {
-    return std::atoi(word.c_str()) % 2 == 0 ? std::string() : word + " is not even";
-}
-
 void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<std::string>& units) {
     app.footer(kExamples);
     app.add_option(
@@ -163,7 +159,7 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
         ->expected(2);
     app.add_option("--cells", settings.cells, "cells along the edge of a tile, even\n(default: from the rasters)")
         ->check(CLI::Range(4, 240))
-        ->check(evenness);
+        ->check([](const std::string& word) { return std::atoi(word.c_str()) % 2 == 0 ? "" : word + " is not even"; });
     app.add_option(
            "--lod-factor", settings.lodFactor,
            "distance at which a tile is replaced by finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)")

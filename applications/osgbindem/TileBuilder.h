@@ -62,11 +62,8 @@ struct Tally {
     }
 };
 
-/// A tile with everything below it in files: what its mesh and the tiles above need of it.
-struct SurveyedTile {
-    TileId id;
-    /// The tile as it is stored, but for its colours.
-    osgAnalyticBin::TerrainGrid grid;
+/// What the tiles above need to know of a tile with everything below it in files.
+struct TileFigures {
     /// The full-resolution heights under the tile.
     Interval range = Interval::none();
     /// Of the tile and everything below it.
@@ -75,6 +72,13 @@ struct SurveyedTile {
     osgAnalyticBin::AnalyticBin below;
     /// What the files below the tile add up to, in whatever order they were written or read back.
     std::uint64_t checksum = 0;
+};
+
+/// And what its mesh is made of.
+struct SurveyedTile : TileFigures {
+    TileId id;
+    /// The tile as it is stored, but for its colours.
+    osgAnalyticBin::TerrainGrid grid;
 };
 
 /// A finished tile; everything below it is in files.
