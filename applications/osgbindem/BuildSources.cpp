@@ -75,39 +75,6 @@ void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::o
     }
 }
 
-}  // namespace
-
-std::string describeSources(const Settings& settings, const TileLayout& layout) {
-    std::ostringstream out;
-    out << std::setprecision(std::numeric_limits<double>::max_digits10);
-    out << "osgbindem " << osgAnalyticBin::version() << ", format " << kFormat << ", GDAL "
-        << GDALVersionInfo("RELEASE_NAME") << ", OpenSceneGraph " << osgGetVersion() << '\n';
-    out << (settings.levels ? "levels given " : kFoundLevels) << layout.deepestLevel() << '\n';
-    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", packed " << settings.packed
-        << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
-    out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
-        << settings.isWgs84 << '\n';
-    if (settings.region) {
-        const RectDeg& region = *settings.region;
-        out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
-    }
-    if (!settings.geoid.empty()) {
-        const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
-        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid);
-        if (isFile) describeFile(settings.geoid, out);
-        out << '\n';
-    }
-    if (settings.band) out << "band " << *settings.band << '\n';
-    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
-    if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out,
-                    [&](const RasterGrid& grid) { return reachOf(grid, settings, layout); });
-    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const RasterGrid&) { return 0.0; });
-    return out.str();
-}
-
-namespace {
-
 struct Raster {
     /// See reachOf(). No part of what the raster is: it depends on the other rasters too.
     double reachDeg = 0.0;
@@ -175,6 +142,35 @@ void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
 }
 
 }  // namespace
+
+std::string describeSources(const Settings& settings, const TileLayout& layout) {
+    std::ostringstream out;
+    out << std::setprecision(std::numeric_limits<double>::max_digits10);
+    out << "osgbindem " << osgAnalyticBin::version() << ", format " << kFormat << ", GDAL "
+        << GDALVersionInfo("RELEASE_NAME") << ", OpenSceneGraph " << osgGetVersion() << '\n';
+    out << (settings.levels ? "levels given " : kFoundLevels) << layout.deepestLevel() << '\n';
+    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", packed " << settings.packed
+        << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
+    out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
+        << settings.isWgs84 << '\n';
+    if (settings.region) {
+        const RectDeg& region = *settings.region;
+        out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
+    }
+    if (!settings.geoid.empty()) {
+        const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
+        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid);
+        if (isFile) describeFile(settings.geoid, out);
+        out << '\n';
+    }
+    if (settings.band) out << "band " << *settings.band << '\n';
+    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
+    if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
+    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out,
+                    [&](const RasterGrid& grid) { return reachOf(grid, settings, layout); });
+    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const RasterGrid&) { return 0.0; });
+    return out.str();
+}
 
 bool touches(const ChangedArea& area, const RectDeg& rect) noexcept {
     return std::any_of(area.begin(), area.end(), [&](const RectDeg& changed) {

@@ -4,31 +4,26 @@
 #include "DatabaseBuilder.h"
 
 #include "DiskFile.h"
-#include "Failure.h"
 #include "Interruption.h"
 #include "ProgramRun.h"
 
 #include <cpl_string.h>
 #include <ogr_srs_api.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <functional>
 #include <future>
 #include <iostream>
 #include <new>
-#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
 using osgAnalyticBin::support::stopRequested;
 using osgAnalyticBin::support::throwIfStopRequested;
@@ -117,71 +112,6 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
     for (const auto& thread : threads) thread.wait();
     if (error) std::rethrow_exception(error);
 }
-
-}  // namespace
-
-TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
-    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
-    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
-    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
-}
-
-TileLayout checkedLayoutFor(const Settings& settings) {
-    DemMosaic mosaic(settings);
-    for (const std::string& line : mosaic.inspect()) {
-        if (!settings.quiet) std::cout << line << std::endl;
-    }
-    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
-        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
-    }
-    return layoutFor(settings, mosaic);
-}
-
-double weightOf(const std::vector<Task>& tasks) {
-    double sum = 0.0;
-    for (const Task& task : tasks) sum += task.weight;
-    return sum;
-}
-
-std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
-    std::vector<Task> starts;
-    double sum = 0.0;
-    for (const TileId& tile : layout.startTiles()) {
-        starts.push_back(taskFor(tile, mosaic, layout));
-        sum += starts.back().weight;
-    }
-    std::vector<Task> tasks;
-    const double most = std::min(sum / kFewestTasks, kMostWeight);
-    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
-    return tasks;
-}
-
-void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
-    std::atomic<std::size_t> next{0};
-    inThreads(site, glance, [&](TileBuilder& builder) {
-        for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
-    });
-}
-
-std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan) {
-    std::set<TileId> done;
-    for (const Task& task : plan) done.insert(task.tile);
-    const std::vector<TileId>& tiles = site.layout.startTiles();
-    std::vector<BuiltTile> starts(tiles.size());
-    std::atomic<std::size_t> next{0};
-    inThreads(site, nullptr, [&](TileBuilder& builder) {
-        builder.setFinishedTasks([&](const TileId& tile) {
-            if (done.count(tile) == 0) return site.standing ? site.standing(builder, tile) : std::nullopt;
-            auto record = site.folder.find(tile, site.layout);
-            if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
-            return record;
-        });
-        for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
-    });
-    return starts;
-}
-
-namespace {
 
 /// Ends the program, MPI's part left out, as mpirun wants it after a signal.
 [[noreturn]] void leaveAfterSignal() {
@@ -386,6 +316,67 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
 }
 
 }  // namespace
+
+TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
+    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
+    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
+    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
+}
+
+TileLayout checkedLayoutFor(const Settings& settings) {
+    DemMosaic mosaic(settings);
+    for (const std::string& line : mosaic.inspect()) {
+        if (!settings.quiet) std::cout << line << std::endl;
+    }
+    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
+        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
+    }
+    return layoutFor(settings, mosaic);
+}
+
+double weightOf(const std::vector<Task>& tasks) {
+    double sum = 0.0;
+    for (const Task& task : tasks) sum += task.weight;
+    return sum;
+}
+
+std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
+    std::vector<Task> starts;
+    double sum = 0.0;
+    for (const TileId& tile : layout.startTiles()) {
+        starts.push_back(taskFor(tile, mosaic, layout));
+        sum += starts.back().weight;
+    }
+    std::vector<Task> tasks;
+    const double most = std::min(sum / kFewestTasks, kMostWeight);
+    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
+    return tasks;
+}
+
+void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
+    std::atomic<std::size_t> next{0};
+    inThreads(site, glance, [&](TileBuilder& builder) {
+        for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
+    });
+}
+
+std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan) {
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    const std::vector<TileId>& tiles = site.layout.startTiles();
+    std::vector<BuiltTile> starts(tiles.size());
+    std::atomic<std::size_t> next{0};
+    inThreads(site, nullptr, [&](TileBuilder& builder) {
+        builder.setFinishedTasks([&](const TileId& tile) {
+            if (done.count(tile) == 0) return site.standing ? site.standing(builder, tile) : std::nullopt;
+            auto record = site.folder.find(tile, site.layout);
+            if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
+            return record;
+        });
+        for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
+    });
+    return starts;
+}
 
 void buildDatabase(const Settings& settings, const Ranks& ranks) {
     ranks.isFirst() ? buildWith(settings, ranks) : helpFirstRank(settings, ranks);

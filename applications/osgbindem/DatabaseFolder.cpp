@@ -4,7 +4,6 @@
 #include "DatabaseFolder.h"
 
 #include "Checksum.h"
-#include "Failure.h"
 #include "Interruption.h"
 #include "RecordStream.h"
 #include "TextFile.h"
@@ -18,7 +17,6 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 namespace osgbindem {
 
@@ -26,7 +24,6 @@ namespace fs = std::filesystem;
 namespace support = osgAnalyticBin::support;
 using osgAnalyticBin::RecordReader;
 using osgAnalyticBin::RecordWriter;
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::writeFile;
 
 namespace {

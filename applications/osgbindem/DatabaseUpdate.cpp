@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseBuilder.h"
-#include "Failure.h"
 #include "SkirtMeasure.h"
-#include "TileBuilder.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -12,20 +10,14 @@
 #include <osg/Group>
 #include <osgDB/ReadFile>
 
-#include <algorithm>
 #include <iostream>
 #include <iterator>
-#include <mutex>
-#include <optional>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace osgbindem {
 
 using osgAnalyticBin::AnalyticBin;
-using osgAnalyticBin::support::Failure;
 
 namespace {
 

@@ -3,7 +3,6 @@
 
 #include "DemMosaic.h"
 
-#include "Failure.h"
 #include "Interruption.h"
 #include "RasterLayer.h"
 
@@ -15,8 +14,6 @@
 #include <utility>
 
 namespace osgbindem {
-
-using osgAnalyticBin::support::Failure;
 
 /// What is added to heights of a raster so that they are above the ellipsoid: the height of the geoid, found by PROJ.
 class VerticalShift final {

@@ -3,7 +3,6 @@
 
 #include "ImageMosaic.h"
 
-#include "Failure.h"
 #include "RasterLayer.h"
 #include "TileMesh.h"
 
@@ -17,8 +16,6 @@
 #include <utility>
 
 namespace osgbindem {
-
-using osgAnalyticBin::support::Failure;
 
 /// A colour over others.
 struct Cover {

@@ -4,15 +4,12 @@
 #include "RasterFile.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace osgbindem {
-
-using osgAnalyticBin::support::Failure;
 
 namespace {
 

@@ -16,7 +16,6 @@
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {

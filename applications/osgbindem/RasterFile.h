@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "Failure.h"
 #include "Gdal.h"
 #include "RasterGrid.h"
 #include "Settings.h"
@@ -87,7 +86,7 @@ private:
     [[nodiscard]] bool isInDegreesOfGlobe() const;
     /// From the raster's own coordinates to degrees of the globe. Throws Failure.
     [[nodiscard]] std::unique_ptr<OGRCoordinateTransformation> wayToGlobe() const;
-    [[nodiscard]] osgAnalyticBin::support::Failure noWayToGlobe() const;
+    [[nodiscard]] Failure noWayToGlobe() const;
     [[nodiscard]] int overview(double spacingDeg) const;
 };
 

@@ -4,7 +4,6 @@
 #include "RasterLayer.h"
 
 #include "Angles.h"
-#include "Failure.h"
 
 #include <glm/common.hpp>
 
@@ -18,7 +17,6 @@
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kRadiansPerDegree;
 
 namespace {

@@ -4,7 +4,6 @@
 #include "Settings.h"
 
 #include "CommandLine.h"
-#include "Failure.h"
 #include "RasterFile.h"
 #include "TileLayout.h"
 
@@ -16,12 +15,9 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <string>
-#include <vector>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::UsageError;
 using osgAnalyticBin::support::within;
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "Failure.h"
 #include "RasterGrid.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
 
 /// One elevation raster as named on the command line.
 struct DemInput {

@@ -16,16 +16,11 @@ namespace osgbindem {
 
 using osgAnalyticBin::TerrainGrid;
 
-namespace {
-
-// Enough for the neighbourhood of the tiles at work; the answers can be found again.
-constexpr std::size_t kMostKnown = 100000;
-
-}  // namespace
-
 bool SkirtMeasure::hasChildren(const TileId& tile) {
     if (tile.level >= _layout.deepestLevel() || !_layout.isInRegion(tile)) return false;
     if (tile.level < _layout.startLevel()) return true;
+    // Enough for the neighbourhood of the tiles at work; the answers can be found again.
+    constexpr std::size_t kMostKnown = 100000;
     const auto known = _known.find(tile);
     if (known != _known.end()) return known->second;
     const bool result = _mosaic.hasFinerData(tile.rect(), _layout.spacingDeg(tile.level));

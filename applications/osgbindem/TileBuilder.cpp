@@ -3,12 +3,10 @@
 
 #include "TileBuilder.h"
 
-#include "Failure.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "TileNode.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <ogr_spatialref.h>
@@ -18,11 +16,9 @@
 
 #include <cmath>
 #include <sstream>
-#include <string>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 using osgAnalyticBin::AnalyticBin;
@@ -58,6 +54,20 @@ std::string nodeFileBytes(const osg::Node& node, bool compress) {
     const osgDB::ReaderWriter::WriteResult result = writer->writeNode(node, stream, options);
     if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
     return stream.str();
+}
+
+/// The root node of a database, without tiles.
+osg::ref_ptr<osg::CoordinateSystemNode> litRoot(const Settings& settings) {
+    OGRSpatialReference reference;
+    if (settings.isWgs84) reference.importFromEPSG(4326);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root =
+        makeRoot(settings.ellipsoid, settings.isWgs84 ? wktOf(reference) : std::string());
+    // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
+    constexpr float kAmbient = 0.5F;
+    const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
+    light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
+    root->getOrCreateStateSet()->setAttribute(light);
+    return root;
 }
 
 }  // namespace
@@ -188,24 +198,6 @@ BuiltTile TileBuilder::build(const TileId& id) {
     built.node = makeTileNode(id, *makePlaced(*built.geometry, grid.origin), facts);
     return built;
 }
-
-namespace {
-
-/// The root node of a database, without tiles.
-osg::ref_ptr<osg::CoordinateSystemNode> litRoot(const Settings& settings) {
-    OGRSpatialReference reference;
-    if (settings.isWgs84) reference.importFromEPSG(4326);
-    const osg::ref_ptr<osg::CoordinateSystemNode> root =
-        makeRoot(settings.ellipsoid, settings.isWgs84 ? wktOf(reference) : std::string());
-    // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
-    constexpr float kAmbient = 0.5F;
-    const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
-    light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
-    root->getOrCreateStateSet()->setAttribute(light);
-    return root;
-}
-
-}  // namespace
 
 void prepareNodeFiles() {
     osgAnalyticBin::addModuleFolder();

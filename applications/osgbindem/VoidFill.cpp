@@ -3,20 +3,15 @@
 
 #include "VoidFill.h"
 
-#include "Failure.h"
-
 #include <cpl_string.h>
 #include <gdal_alg.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace osgbindem {
-
-using osgAnalyticBin::support::Failure;
 
 namespace {
 
