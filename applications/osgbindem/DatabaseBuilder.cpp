@@ -6,6 +6,7 @@
 #include "DiskFile.h"
 #include "Interruption.h"
 #include "ProgramRun.h"
+#include "RasterFile.h"
 
 #include <cpl_string.h>
 #include <ogr_srs_api.h>

@@ -51,7 +51,7 @@ using ChangedArea = std::vector<RectDeg>;
 class Progress final {
 public:
     Progress(bool isShown, double total)
-        : _isShown(isShown), _isRow(!_line.isTerminal() || isStartedByMpi()), _total(total) {
+        : _isShown(isShown), _isRow(!_line.isTerminal() || launchedRank() != nullptr), _total(total) {
         add(0.0);
     }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseBuilder.h"
+#include "RasterFile.h"
 #include "SkirtMeasure.h"
 #include "TileLayout.h"
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,16 +40,14 @@ public:
 using JoinRanks = Ranks* (*)();
 constexpr const char* kJoinRanks = "osgbindemJoinRanks";
 
-/// Only mpirun's environment makes MPI load and start, which takes a tenth of a second. Throws Failure.
-[[nodiscard]] std::unique_ptr<Ranks> joinRanks();
-
-/// Whether mpirun started the program; then what looks like a terminal may be none.
-[[nodiscard]] bool isStartedByMpi();
-
-/// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has started.
-[[nodiscard]] bool isSpeaker();
-
-/// Threads for each program, so that those on one machine keep its processors busy.
-[[nodiscard]] int threadsPerRank(const Ranks& ranks);
+/// The rank that a launcher which speaks to MPI has given the program, as text; null without one: Open MPI's mpirun;
+/// prrte and Slurm's srun --mpi=pmix; srun --mpi=pmi2 and others. SLURM_PROCID is no sign: every program of a batch
+/// file has it.
+[[nodiscard]] inline const char* launchedRank() {
+    const char* rank = nullptr;
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+        if (!rank) rank = std::getenv(name);
+    return rank;
+}
 
 }  // namespace osgbindem

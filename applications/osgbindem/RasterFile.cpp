@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <dlfcn.h>
+#include <iostream>
 #include <string_view>
 #include <utility>
 
@@ -359,11 +360,19 @@ RasterLook RasterFile::look() const {
     return look;
 }
 
-std::optional<osgAnalyticBin::core::Ellipsoid> foreignEllipsoidOf(const std::string& path) {
+Settings withDeclaredRadii(Settings settings) {
+    if (settings.areRadiiGiven) return settings;
+    const std::string& path = settings.dems.front().path;
     const GdalDataset dataset = opened(path);
     const OGRSpatialReference* reference = referenceOf(*dataset);
-    if (reference == nullptr || reference->IsLocal() != 0 || isOfEarth(*reference)) return std::nullopt;
-    return osgAnalyticBin::core::Ellipsoid(reference->GetSemiMajor(), reference->GetSemiMinor());
+    if (reference == nullptr || reference->IsLocal() != 0 || isOfEarth(*reference)) return settings;
+    settings.ellipsoid = {reference->GetSemiMajor(), reference->GetSemiMinor()};
+    settings.isWgs84 = false;
+    if (!settings.quiet) {
+        std::cout << "the globe has the radii of \"" << path << "\", " << settings.ellipsoid.equatorialRadius()
+                  << " and " << settings.ellipsoid.polarRadius() << " m; see --radii" << std::endl;
+    }
+    return settings;
 }
 
 }  // namespace osgbindem

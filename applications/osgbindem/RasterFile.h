@@ -7,11 +7,8 @@
 #include "RasterGrid.h"
 #include "Settings.h"
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,7 +87,8 @@ private:
     [[nodiscard]] int overview(double spacingDeg) const;
 };
 
-/// The ellipsoid that a raster declares, where it is not the earth's. Throws Failure.
-[[nodiscard]] std::optional<osgAnalyticBin::core::Ellipsoid> foreignEllipsoidOf(const std::string& path);
+/// The settings with the radii of the first raster where that is of another body than the earth and none are given;
+/// says so. Throws Failure.
+[[nodiscard]] Settings withDeclaredRadii(Settings settings);
 
 }  // namespace osgbindem

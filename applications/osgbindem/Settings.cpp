@@ -4,7 +4,7 @@
 #include "Settings.h"
 
 #include "CommandLine.h"
-#include "RasterFile.h"
+#include "Gdal.h"
 #include "TileLayout.h"
 
 #include <osg/CoordinateSystemNode>
@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
 
 namespace osgbindem {
 
@@ -208,19 +207,6 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     if (!osgAnalyticBin::support::parseCommandLine(app, argc, words.data())) return std::nullopt;
     settings.dems = demsOf(dems, units);
     requireFiles(settings);
-    return settings;
-}
-
-Settings withDeclaredRadii(Settings settings) {
-    if (settings.areRadiiGiven) return settings;
-    const auto foreign = foreignEllipsoidOf(settings.dems.front().path);
-    if (!foreign) return settings;
-    settings.ellipsoid = *foreign;
-    settings.isWgs84 = false;
-    if (!settings.quiet) {
-        std::cout << "the globe has the radii of \"" << settings.dems.front().path << "\", "
-                  << foreign->equatorialRadius() << " and " << foreign->polarRadius() << " m; see --radii" << std::endl;
-    }
     return settings;
 }
 

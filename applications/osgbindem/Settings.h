@@ -71,8 +71,4 @@ struct Settings {
 /// Returns: nullopt after help or version was printed. Throws Failure.
 [[nodiscard]] std::optional<Settings> settingsFrom(int argc, const char* const* argv);
 
-/// The same with the radii of the first raster where that is of another body than the earth and none are given.
-/// Throws Failure.
-[[nodiscard]] Settings withDeclaredRadii(Settings settings);
-
 }  // namespace osgbindem

@@ -2,27 +2,71 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseBuilder.h"
-#include "Failure.h"
 #include "Interruption.h"
+#include "ModuleFolder.h"
 #include "ProgramRun.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>
 #include <osg/Notify>
 
+#include <algorithm>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
+#include <sched.h>
+#include <thread>
 
 namespace {
 
 using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kSucceeded;
 
+using osgbindem::Failure;
+using osgbindem::Ranks;
 using osgbindem::Settings;
+
+/// Threads for each program, so that those on one machine keep its processors busy.
+int threadsPerRank(const Ranks& ranks) {
+    const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    if (ranks.count() == 1) return machine;
+    // mpirun binds each program to a part of the machine
+    cpu_set_t mine;
+    CPU_ZERO(&mine);
+    const int bound = sched_getaffinity(0, sizeof mine, &mine) == 0 ? CPU_COUNT(&mine) : machine;
+    return std::max(1, std::min(bound, machine / ranks.countHere()));
+}
+
+/// Only mpirun's environment makes MPI load and start, which takes a tenth of a second. Throws Failure.
+std::unique_ptr<Ranks> joinRanks() {
+    if (!osgbindem::launchedRank()) return std::make_unique<Ranks>();
+    const std::string module = osgAnalyticBin::moduleFolder() + "osganalyticbin/osgbindem_mpi.so";
+    // MPI's own modules look for its functions among those of the program.
+    void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    const auto join = library ? reinterpret_cast<osgbindem::JoinRanks>(dlsym(library, osgbindem::kJoinRanks)) : nullptr;
+    if (!join) {
+        const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
+        if (size && std::atoi(size) == 1) return std::make_unique<Ranks>();  // launched alone
+        throw Failure(
+            "without its module for MPI osgbindem runs alone: run it without mpirun, or install the module "
+            "(on Debian: osganalyticbin-mpi); " +
+            std::string(dlerror()));
+    }
+    std::unique_ptr<Ranks> ranks(join());
+    if (!ranks) throw Failure("MPI does not start as threads need it; run osgbindem without mpirun");
+    return ranks;
+}
+
+// Whether this program is the one that speaks to the user.
+bool isSpeaker = true;
+
+void setSpeaker(bool is) {
+    isSpeaker = is;
+    for (std::ostream* stream : {&std::cout, &std::cerr}) stream->clear(is ? std::ios::goodbit : std::ios::failbit);
+}
 
 /// A setting of GDAL's that the user's environment may have otherwise.
 void setUnlessGiven(const char* name, const char* value) {
@@ -45,11 +89,12 @@ void prepareProcess(const Settings& settings) {
 ExitCode run(int argc, char** argv) {
     std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return kSucceeded;
-    const std::unique_ptr<osgbindem::Ranks> ranks = osgbindem::joinRanks();
+    const std::unique_ptr<Ranks> ranks = joinRanks();
+    setSpeaker(ranks->isFirst());  // launcher and library may not know each other
     if (ranks->count() > 1 && settings->update) {
         throw osgAnalyticBin::support::UsageError("--update is the work of one process; run it without mpirun");
     }
-    if (!settings->threads) settings->threads = osgbindem::threadsPerRank(*ranks);
+    if (!settings->threads) settings->threads = threadsPerRank(*ranks);
     prepareProcess(*settings);
     if (settings->update) {
         osgbindem::updateDatabase(*settings);
@@ -62,10 +107,9 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool isSpeaker = osgbindem::isSpeaker();
-    if (!isSpeaker) {
-        for (std::ostream* stream : {&std::cout, &std::cerr}) stream->setstate(std::ios::failbit);
-    }
+    // Until MPI has started, the environment tells which one is the first.
+    const char* rank = osgbindem::launchedRank();
+    setSpeaker(rank == nullptr || std::atoi(rank) == 0);
     const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] {
         try {
             return run(argc, argv);

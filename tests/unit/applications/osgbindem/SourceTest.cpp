@@ -7,6 +7,7 @@
 #include "DemMosaic.h"
 #include "Failure.h"
 #include "Program.h"
+#include "RasterFile.h"
 
 #include <gdal_priv.h>
 #include <gdal_utils.h>
