@@ -77,8 +77,6 @@ public:
 
     /// `tileCells`: warps to posts of tiles with so many cells. Throws Failure.
     RasterLayer(Members members, std::optional<int> tileCells);
-    RasterLayer(const RasterLayer&) = delete;
-    RasterLayer& operator=(const RasterLayer&) = delete;
 
     [[nodiscard]] const Members& members() const noexcept { return _members; }
     [[nodiscard]] const std::string& path() const noexcept { return first().input.path; }
