@@ -79,8 +79,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _mosaic(settings, &layout),
       _skirts(_mosaic, layout),
       _images(settings),
-      _triangles(osgAnalyticBin::trianglesOf(layout.cells())),
-      _storedTriangles(settings.packed ? std::vector<std::uint16_t>() : _triangles) {}
+      _triangles(osgAnalyticBin::trianglesOf(layout.cells())) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
     if (_finished) {
@@ -157,7 +156,7 @@ void TileBuilder::finishSurvey(SurveyedTile& tile) {
 
 void TileBuilder::buildChildren(SurveyedTile& tile) {
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    SharedParts shared(_storedTriangles, _layout.cells());
+    SharedParts shared(_layout.cells(), _settings.packed);
     for (const TileId& childId : tile.id.children()) {
         BuiltTile child = build(childId);
         takePosts(tile, child.survey);
@@ -213,8 +212,7 @@ void prepareNodeFiles() {
 std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
                           const TileLayout& layout) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = litRoot(settings);
-    const std::vector<std::uint16_t> triangles = osgAnalyticBin::trianglesOf(layout.cells());
-    SharedParts shared(settings.packed ? std::vector<std::uint16_t>() : triangles, layout.cells());
+    SharedParts shared(layout.cells(), settings.packed);
     for (const BuiltTile& tile : startTiles) {
         root->addChild(tile.node);
         shared.addTo(*tile.geometry, tile.survey.grid.textureSize);

@@ -135,8 +135,6 @@ private:
     SkirtMeasure _skirts;
     ImageMosaic _images;
     std::vector<std::uint16_t> _triangles;
-    /// Of the meshes that are stored; none where tiles are packed.
-    std::vector<std::uint16_t> _storedTriangles;
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;
 };

@@ -115,6 +115,7 @@ void drape(osg::Geometry& geometry, osg::Image& image) {
     geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
 }
 
+using osgAnalyticBin::PackedTerrain;
 using osgAnalyticBin::TerrainGrid;
 using osgAnalyticBin::support::kRadiansPerDegree;
 
@@ -154,18 +155,15 @@ osg::ref_ptr<const osg::Vec4ubArray> reliefColours(osgAnalyticBin::TerrainGrid g
 }
 
 osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image, bool isPacked) {
-    osg::ref_ptr<osg::Geometry> geometry;
-    if (isPacked) {
-        geometry = new osgAnalyticBin::PackedTerrain(grid);
-    } else {
-        geometry = new osg::Geometry;
-        osgAnalyticBin::fillGeometry(grid, *geometry);
-    }
-    if (image != nullptr) {
-        const osg::ref_ptr<osg::Image> stored = isPacked ? inBlocks(*image) : osg::ref_ptr<osg::Image>(image);
-        drape(*geometry, *stored);
-    }
+    const osg::ref_ptr<osg::Geometry> geometry = isPacked ? new PackedTerrain(grid) : new osg::Geometry;
+    if (!isPacked) osgAnalyticBin::fillGeometry(grid, *geometry);
+    if (image != nullptr) drape(*geometry, isPacked ? *inBlocks(*image) : *image);
     return geometry;
+}
+
+SharedParts::SharedParts(int cells, bool arePacked)
+    : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)), _cells(cells) {
+    if (!arePacked) _triangles->asVector() = osgAnalyticBin::trianglesOf(cells);
 }
 
 void SharedParts::addTo(osg::Geometry& geometry, int textureSize) {

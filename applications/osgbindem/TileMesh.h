@@ -31,9 +31,8 @@ void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize);
 /// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
 class SharedParts final {
 public:
-    /// `triangles`: none for packed tiles, which are filled when they are read.
-    SharedParts(const std::vector<std::uint16_t>& triangles, int cells)
-        : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES, triangles.begin(), triangles.end())), _cells(cells) {}
+    /// Those of packed tiles are empty, to be filled when they are read.
+    SharedParts(int cells, bool arePacked);
 
     /// Completes the geometry. `textureSize`: 0 without a texture.
     void addTo(osg::Geometry& geometry, int textureSize);
