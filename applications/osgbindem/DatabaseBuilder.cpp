@@ -295,6 +295,13 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     }
 }
 
+/// The layout that the settings ask for, or else the rasters.
+TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
+    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
+    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
+    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
+}
+
 /// Every rank but the first.
 void helpFirstRank(const Settings& given, const Ranks& ranks) {
     Meetings meetings(ranks, leaveAfterSignal);
@@ -317,12 +324,6 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
 }
 
 }  // namespace
-
-TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
-    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
-    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
-    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
-}
 
 TileLayout checkedLayoutFor(const Settings& settings) {
     DemMosaic mosaic(settings);

@@ -77,11 +77,8 @@ private:
     double _done = 0.0;
 };
 
-/// The layout that the settings ask for, or else the rasters.
-[[nodiscard]] TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic);
-
-/// The same once every raster is known to have heights; the rasters are closed again. Says what the user should know of
-/// them, unless that is quiet. Throws Failure.
+/// The layout that the settings ask for, or else the rasters, once every raster is known to have heights; the rasters
+/// are closed again. Says what the user should know of them, unless that is quiet. Throws Failure.
 [[nodiscard]] TileLayout checkedLayoutFor(const Settings& settings);
 
 /// A subtree that one thread builds by itself.
