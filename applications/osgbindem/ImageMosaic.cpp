@@ -52,7 +52,18 @@ public:
     /// before. Returns: whether there is any. Throws Failure.
     bool load(const RectDeg& rect, int mostPixels) {
         _patches.clear();
-        for (const PixelWindow& window : grid().touching(rect)) read(window, mostPixels);
+        for (const PixelWindow& window : grid().touching(rect)) {
+            Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
+            patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
+            GDALRasterIOExtraArg extra;
+            INIT_RASTERIO_EXTRA_ARG(extra);
+            extra.eResampleAlg = GRIORA_Average;
+            const CPLErr error = _layer->dataset().RasterIO(
+                GF_Read, window.column, window.row, window.width, window.height, patch.pixels.data(), patch.width,
+                patch.height, GDT_Byte, 4, nullptr, 4, GSpacing{4} * patch.width, 1, &extra);
+            if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+            _patches.push_back(std::move(patch));
+        }
         return !_patches.empty();
     }
 
@@ -94,19 +105,6 @@ private:
         int height = 0;
         std::vector<std::uint8_t> pixels;
     };
-
-    void read(const PixelWindow& window, int mostPixels) {
-        Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
-        patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
-        GDALRasterIOExtraArg extra;
-        INIT_RASTERIO_EXTRA_ARG(extra);
-        extra.eResampleAlg = GRIORA_Average;
-        const CPLErr error = _layer->dataset().RasterIO(GF_Read, window.column, window.row, window.width, window.height,
-                                                        patch.pixels.data(), patch.width, patch.height, GDT_Byte, 4,
-                                                        nullptr, 4, GSpacing{4} * patch.width, 1, &extra);
-        if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
-        _patches.push_back(std::move(patch));
-    }
 
     [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept {
         // divisions would take most of the time where nothing is reduced

@@ -111,16 +111,6 @@ GdalDataset warped(GDALDataset& dataset, const RasterFile& file, const Frame& fr
         });
 }
 
-/// The part of a raster's grid that another one has.
-PixelWindow windowOf(const RasterGrid& member, const RasterGrid& grid) {
-    const RectDeg area = member.extent().turnedTo(grid.extent());
-    const auto [first, last] = std::minmax({grid.rowOf(area.north), grid.rowOf(area.south)});
-    const double east = grid.columnOf(area.east);
-    const double west = grid.columnOf(area.west);
-    return {static_cast<int>(std::lround(west + 0.5)), static_cast<int>(std::lround(first + 0.5)),
-            static_cast<int>(std::lround(east - west)), static_cast<int>(std::lround(last - first))};
-}
-
 // Rasters of one resolution have pixel sizes that differ in their last digits.
 constexpr double kEquallyFine = 1.01;
 
@@ -249,7 +239,6 @@ RasterLayer::RasterLayer(Members members, std::optional<int> tileCells) : _membe
     GeoTransform transform{};
     dataset().GetGeoTransform(transform.data());
     _grid = RasterGrid(transform, dataset().GetRasterXSize(), dataset().GetRasterYSize());
-    for (Member& member : _members) member.window = windowOf(member.grid, _grid);
 }
 
 void RasterLayer::warp(std::optional<int> tileCells) {
@@ -278,7 +267,7 @@ RasterLayer::Layers RasterLayer::layersOf(const Settings& settings, const std::v
     std::vector<Members> groups;
     for (std::size_t number = 0; number < rasters.size(); ++number) {
         Members own;
-        own.push_back({number, RasterFile(settings, rasters[number], areElevation, spacingDeg), {}, {}, {}});
+        own.push_back({number, RasterFile(settings, rasters[number], areElevation, spacingDeg), {}, {}});
         const RasterFile& file = own.front().file;
         // All groups that the raster joins become one with it.
         const auto apart = std::stable_partition(groups.begin(), groups.end(), [&](const Members& group) {

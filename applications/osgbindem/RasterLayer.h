@@ -65,12 +65,11 @@ public:
     /// The same of all images. Throws Failure.
     [[nodiscard]] static Layers imagesOf(const Settings& settings);
 
-    /// A raster, its number on the command line and the part of the layer that it may have data in.
+    /// A raster, its number on the command line and the grid of the layer's posts within it.
     struct Member {
         std::size_t number = 0;
         RasterFile file;
         RasterGrid grid;
-        PixelWindow window;
         BlendBand band;
     };
     using Members = std::vector<Member>;

@@ -158,17 +158,21 @@ private:
             if (!std::isnan(_heights[i])) _kinds[i] = Kind::Data;
         });
         for (const RasterLayer::Member& member : _fill.layer.members()) {
-            for (int turn = -_turns; turn <= _turns; ++turn) {
-                PixelWindow part = member.window;
-                part.column += turn * _width;
-                forPosts(part, [&](int x, int y, std::size_t i) {
-                    if (_kinds[i] != Kind::Outside) return;
-                    const FoundHeight coarser = _fill.hasRivals ? coarserAt(x, y) : FoundHeight();
-                    _kinds[i] = coarser.isRival ? Kind::Rival : Kind::Narrow;
-                    if (coarser.isRival) _heights[i] = coarser.metres;
-                });
+            for (PixelWindow part : _fill.layer.grid().inside(member.grid.extent())) {
+                part.column -= _turns * _width;
+                for (int turn = -_turns; turn <= _turns; ++turn, part.column += _width) findVoids(part);
             }
         }
+    }
+
+    /// In a part of the window where one of the layer's rasters is.
+    void findVoids(const PixelWindow& part) {
+        forPosts(part, [&](int x, int y, std::size_t i) {
+            if (_kinds[i] != Kind::Outside) return;
+            const FoundHeight coarser = _fill.hasRivals ? coarserAt(x, y) : FoundHeight();
+            _kinds[i] = coarser.isRival ? Kind::Rival : Kind::Narrow;
+            if (coarser.isRival) _heights[i] = coarser.metres;
+        });
     }
 
     [[nodiscard]] std::vector<GByte> known() const {
