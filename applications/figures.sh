@@ -6,7 +6,7 @@
 # the project, the demo's database and a regional one, flies all camera paths over them, draws flights, jumps from pose
 # to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. 13 to
 # 18 minutes on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
-# Arguments: none, or "commit" to put the pictures that results.md shows into osgAnalyticBin/doc/results/.
+# Arguments: none, or "commit" to put the tables and pictures of results.md into osgAnalyticBin/doc/results/.
 # GTOPO30=FILE in the environment: a raster of 30 arc seconds, for the published experiment.
 
 set -eu
@@ -109,7 +109,8 @@ step "Machine"
 } | tee "$out/machine.txt"
 
 if [ "${1:-}" = commit ]; then
-    step "Pictures for results.md"
+    step "Tables and pictures for results.md"
+    python3 applications/tables.py "$out" osgAnalyticBin/doc/results
     mkdir -p osgAnalyticBin/doc/results
     for picture in paths/drawn paths/files paths/cull paper/figure1 paper/figure2 paper/figure3 \
         paper/figure4 paper/figure5 paper/wrong_cull_corners paper/wrong_cull_paper; do
