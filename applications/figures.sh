@@ -110,8 +110,8 @@ step "Machine"
 
 if [ "${1:-}" = commit ]; then
     step "Tables and pictures for results.md"
-    python3 applications/tables.py "$out" osgAnalyticBin/doc/results
     mkdir -p osgAnalyticBin/doc/results
+    python3 applications/tables.py "$out" osgAnalyticBin/doc/results
     for picture in paths/drawn paths/files paths/cull paper/figure1 paper/figure2 paper/figure3 \
         paper/figure4 paper/figure5 paper/wrong_cull_corners paper/wrong_cull_paper; do
         cp "$out/$picture.png" "osgAnalyticBin/doc/results/$(echo "$picture" | tr / _).png"

@@ -10,34 +10,32 @@ import json
 import sys
 from pathlib import Path
 
-BINS = "quadratic+horizon+edges+autoocclusion"  # the default, as files of before name it
 OFF, ON, OBB = "quadratic+horizon+edges", "quadratic+horizon+edges+occlusion", "orientedbox+horizon+edges"
 LABELS = {"sphere": "sphere", "cluster": "cluster", OBB: "obb", OFF: "bins off", ON: "on", "bins": "auto"}
 
 
 class Sums:
-    """The sums of a measurement at poses, for each path and method: paths begin the names of their poses."""
+    """The sums of one CSV file of osgbinbench over some of its poses, by method and column."""
 
-    def __init__(self, file):
-        self.paths = {}
-        for row in csv.DictReader(file.open()):
-            methods = self.paths.setdefault(row["pose"].split("_")[0], {})
-            sums = methods.setdefault(row["method"], {"poses": 0})
+    def __init__(self, rows):
+        self.sums = {}
+        for row in rows:
+            sums = self.sums.setdefault(row["method"], {"poses": 0})
             sums["poses"] += 1
             for column, value in row.items():
                 if column not in ("pose", "method") and value:
                     sums[column] = sums.get(column, 0.0) + float(value)
 
-    def lines(self):
-        """Yields each path and, at the end, all of them together, with a function of method and column."""
-        every = {}
-        for methods in self.paths.values():
-            for method, sums in methods.items():
-                total = every.setdefault(method, {})
-                for column, value in sums.items():
-                    total[column] = total.get(column, 0) + value
-        for path, methods in [*self.paths.items(), ("all", every)]:
-            yield path, lambda method, column, methods=methods: methods[method].get(column, 0.0)
+    def __call__(self, method, column):
+        return self.sums[method][column]
+
+
+def sums_by_path(file):
+    """Of each path, and of all together, which comes last. The name of a pose begins with that of its path."""
+    rows = list(csv.DictReader(file.open()))
+    paths = dict.fromkeys(row["pose"].split("_")[0] for row in rows)
+    sums = {path: Sums(row for row in rows if row["pose"].split("_")[0] == path) for path in paths}
+    return {**sums, "all": Sums(rows)}
 
 
 def ratio(of, column, method, peer):
@@ -52,7 +50,7 @@ def high_views(sums):
     yield (["path", "poses", "needed", "drawn: sphere", "drawn: cluster", "drawn: bins (to needed)", "files: sphere",
             "files: cluster", "files: bins"] +
            [f"cull bins / {peer}: {caches}" for peer in ("sphere", "cluster", "oracle") for caches in ("warm", "cold")])
-    for path, of in sums.lines():
+    for path, of in sums.items():
         needed, drawn = of("bins", "truth_tiles"), of("bins", "drawn_tiles")
         yield ([path, count(of("bins", "poses")), count(needed)] +
                [count(of(method, "drawn_tiles")) for method in ("sphere", "cluster")] +
@@ -66,7 +64,7 @@ def low_views(sums, methods):
     labels = [LABELS[method] for method in methods]
     yield (["path", "needed", "visible"] + [f"drawn: {label}" for label in labels] +
            [f"files: {label}" for label in labels] + [f"cull: {label}" for label in labels[1:]])
-    for path, of in sums.lines():
+    for path, of in sums.items():
         yield ([path, count(of("bins", "truth_tiles")), count(of("bins", "visible_tiles"))] +
                [count(of(method, "drawn_tiles")) for method in methods] +
                [count(of(method, "files_requested")) for method in methods] +
@@ -93,10 +91,10 @@ def jumps(figures):
     http, disk = (json.loads((figures / f"jumps_{line}.json").read_text())["methods"] for line in ("http", "disk"))
     yield ["method", "HTTP: files", "HTTP: frames with something missing", "HTTP: ms", "HTTP: / sphere",
            "HTTP: / cluster", "disk: files", "disk: ms"]
-    jumped = 24
+    jumped = len(list(csv.reader(line for line in Path("data/paths/demo.csv").open() if line[0] != "#"))) - 1
     for method in ("sphere", "cluster", OBB, OFF, "bins"):
         late = http[method]["complete_ms"]
-        yield ([BINS if method == "bins" else method, http[method]["files_requested"], http[method]["missing_frames"],
+        yield ([method, http[method]["files_requested"], http[method]["missing_frames"],
                 count(late / jumped)] + [f"{late / http[peer]['complete_ms']:.2f}" for peer in ("sphere", "cluster")] +
                [disk[method]["files_requested"], count(disk[method]["complete_ms"] / jumped)])
 
@@ -126,7 +124,7 @@ def main():
     if len(sys.argv) != 3 or not Path(sys.argv[1]).is_dir() or not Path(sys.argv[2]).is_dir():
         sys.exit("tables.py: give the folder that figures.sh has filled, and that of the tables")
     figures, results = map(Path, sys.argv[1:])
-    high, low, region = (Sums(figures / f"{name}.csv") for name in ("paths", "low", "region"))
+    high, low, region = (sums_by_path(figures / f"{name}.csv") for name in ("paths", "low", "region"))
     tables = {
         "paths": high_views(high),
         "low_views": low_views(low, ["sphere", "cluster", OBB, OFF, ON, "bins"]),
@@ -139,7 +137,7 @@ def main():
     for name, table in tables.items():
         with (results / f"{name}.csv").open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(table)
-    every = [dict(list(sums.lines())[-1:])["all"] for sums in (high, low)]
+    every = [high["all"], low["all"]]
 
     def of_all(column, method, peer, parts=every):
         return sum(of(method, column) for of in parts) / sum(of(peer, column) for of in parts)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kUntimedPerTurn = 2;
 constexpr int kTimedPerTurn = 3;
-// Where a visitor's memory happens to lie costs some percent: after so many turns there is another one. What visitors
-// learn from view to view, as that bins bring nothing here, is known by then.
+// A visitor serves so many turns, in which it learns from view to view, for example that bins save nothing. Then a new
+// one takes its place, because cull times differ by some percent with the place of the visitor in memory.
 constexpr int kTurnsOfVisitor = 8;
 // Touching more than a large cache holds takes longer than hundreds of traversals.
 constexpr int kRoundsForOneCold = 4;

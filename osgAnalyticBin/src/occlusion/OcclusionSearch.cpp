@@ -180,7 +180,7 @@ public:
             terrain = {std::max(terrain.top, one.top), std::min(terrain.nearest, one.nearest)};
         }
         if (!(terrain.top < HUGE_VAL)) return nullptr;
-        if (_found->nearReach > 0.0) (void)_buffer.raiseLowest(terrain.top);
+        _buffer.raiseLowest(terrain.top);
         // a search before this one may have supposed another near plane
         _found->number.clear();
         _found->findings.clear();

@@ -236,8 +236,8 @@ std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& v
 
 // Hides shown tiles behind the terrain of others, for an eye above the terrain. It finds nothing for views that look so
 // steeply that there is no horizon in front of them, if the near plane may cut into terrain, and if a tile may have a
-// hole. What a search has found is used again while the eye has moved little, as far as it holds with the tiles that
-// are shown; the next search is made in another thread. Source: doc/theory/occlusion.md, section 5; tests:
+// hole. The result of a search is used again while the eye has moved little and the result holds for the tiles that are
+// shown; the next search is made in another thread. Source: doc/theory/occlusion.md, section 5; tests:
 // TerrainOcclusion.*. Cost: some tens of nanoseconds for each shown tile; if there has to be a search, a sort of the
 // shown tiles and a few microseconds for each that is not hidden.
 class TerrainOcclusion final : public TerrainHider {

@@ -461,7 +461,7 @@ FAULTS = [
           "finding(i) == Finding::MeshHidden && tile.isOnlyLevel", "finding(i) == Finding::MeshHidden && (tile.isOnlyLevel || true)", NODE,
           "TerrainOcclusion.*"),
     Fault("occlusion: the near plane cuts nothing away", "src/occlusion/OcclusionSearch.cpp",
-          "if (_found->nearReach > 0.0) (void)_buffer.raiseLowest(terrain.top);", "", NODE, "TerrainOcclusion.*:ComputedNear.*"),
+          "_buffer.raiseLowest(terrain.top);", "", NODE, "TerrainOcclusion.*:ComputedNear.*"),
     Fault("near plane: nothing is beside the database", "src/kit/cull/ComputedNear.cpp",
           "near._others = std::max({beside.farthest(), within.farthest(), visitor.getCalculatedFarPlane()});",
           "near._others = within.farthest();", SCENES, NAMED),

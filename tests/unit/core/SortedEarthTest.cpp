@@ -188,7 +188,7 @@ TEST(SortedEarth, HidesNothingBelowTheLowestLine) {
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
         const HorizonBuffer all = sorted(buffer);
         const double lowest = -0.05;
-        (void)buffer.raiseLowest(lowest);
+        buffer.raiseLowest(lowest);
         const HorizonBuffer cut = sorted(buffer);
         for (int k = 0; k < kBallsInScene; ++k) {
             const auto outline = all.outlineOf(inFrame(randomBall(random, scene), frameOf(scene)));
