@@ -31,8 +31,10 @@ struct Place {
 
     /// Between the pictures there is nothing to compare.
     [[nodiscard]] bool isInPicture() const { return column < size && row < size; }
-    /// Lines are a pixel wide, and may be drawn beside the pixels that they cross.
-    [[nodiscard]] bool isAtBorder() const { return std::min(column, row) < 2 || std::max(column, row) >= size - 2; }
+    /// `width`: pixels.
+    [[nodiscard]] bool isAtBorder(int width) const {
+        return std::min(column, row) < width || std::max(column, row) >= size - width;
+    }
 };
 
 // The name of the state that a part sets; empty: none.
@@ -77,8 +79,8 @@ public:
         if (found == _without.drawables.end() || _with.drawables.count(key) > 0) return false;
         const Delivered& lost = found->second;
         if (lost.isPlain && !lost.isFilled && isTie(pixel, 1)) return true;
-        // lines and points beside the picture are wide enough to be seen in it
-        if (!lost.isFilled && Place(pixel).isAtBorder()) return true;
+        // lines and points beside the picture are wide enough to be seen in it, lines also beside what they cross
+        if (!lost.isFilled && Place(pixel).isAtBorder(2)) return true;
         const auto sight = sightTo(pixel, lost, _without.painting);
         if (lost.isPlain && (isInCrack(pixel) || isSkirtInHole(pixel, lost))) return true;
         if (sight && isInSlit(pixel) && isBehindCoarseTiles(lost, *sight)) return true;
@@ -127,7 +129,7 @@ private:
     [[nodiscard]] bool isInCrack(std::size_t pixel) const {
         const auto hasSkirts = [](const DatabaseSpec& database) { return database.hasSkirts; };
         if (std::all_of(_description.databases.begin(), _description.databases.end(), hasSkirts)) return false;
-        if (Place(pixel).isAtBorder()) return false;
+        if (Place(pixel).isAtBorder(1)) return false;
         constexpr std::size_t kRow = Painting::kWidth;
         const std::vector<float>& depths = _without.painting.depths;
         const auto isNearer = [&](std::size_t other) { return depths[other] < depths[pixel]; };
@@ -246,9 +248,12 @@ private:
 
 Description picturable(Description description) {
     std::vector<Part>& parts = description.parts;
-    // cameras in the scene may build on the view's projection, and depths without the painter's program depend on it
+    // cameras in the scene may build on the view's projection, depths without the painter's program depend on it, and
+    // logic operations mix surfaces whose order in depth is a matter of its rounding
     const bool isProjectionUsed = std::any_of(parts.begin(), parts.end(), [](const Part& part) {
-        return part.kind == PartKind::Camera || stateOf(part).find("program") != std::string::npos;
+        const std::string state = stateOf(part);
+        return part.kind == PartKind::Camera || state.find("program") != std::string::npos ||
+               state.find("logic op") == 0;
     });
     for (ViewSpec& view : description.views) {
         const bool isOrthographic = view.projection(3, 3) != 0.0;
