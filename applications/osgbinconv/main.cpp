@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <new>
 #include <pthread.h>
 #include <string>
 #include <thread>
@@ -131,8 +130,6 @@ ExitCode runWithAdvice(int argc, char** argv) {
     } catch (const Interrupted&) {
         throw Interrupted(
             "interrupted; run the same command again: an index goes on where it ended, a copy starts anew");
-    } catch (const std::bad_alloc&) {
-        throw Failure("out of memory; use fewer --threads");
     }
 }
 

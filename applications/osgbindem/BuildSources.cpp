@@ -29,7 +29,7 @@ constexpr const char* kElevation = "elevation ";
 constexpr const char* kImage = "image ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 6;
+constexpr int kFormat = 7;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
@@ -46,9 +46,7 @@ void describeFile(const std::string& path, std::ostream& out) {
 
 /// How far from a change of a coarser raster heights of this one's voids may change, in degrees.
 double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayout& layout) {
-    const RectDeg extent = grid.extent();
-    double spacing =
-        std::max((extent.east - extent.west) / grid.columns(), (extent.north - extent.south) / grid.rows());
+    double spacing = grid.coarsestDeg();
     // An overview may be read in place of the raster.
     if (settings.useOverviews) spacing = std::max(spacing, 2.0 * layout.spacingDeg(layout.deepestLevel()));
     return VoidFill::kMostReach * spacing;

@@ -145,11 +145,6 @@ std::string whatIsKept(const DatabaseFolder& folder, std::size_t parts) {
            "\"; the same command goes on with them";
 }
 
-std::string interruption(const DatabaseFolder& folder, std::size_t parts) {
-    const std::string kept = whatIsKept(folder, parts);
-    return "interrupted" + (kept.empty() ? "; nothing was left behind" : kept);
-}
-
 std::string placeOf(const Tally::Extreme& extreme) {
     const double latitude = extreme.position.latitudeDeg;
     const double longitude = std::remainder(extreme.position.longitudeDeg, 360.0);
@@ -270,11 +265,11 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     meetings.hold();
     // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
     meetings.setInterrupted([&] {
-        std::cerr << "osgbindem: " + interruption(folder, plan.size()) + "\n" << std::flush;
+        std::cerr << "osgbindem: interrupted" + whatIsKept(folder, plan.size()) + "\n" << std::flush;
         leaveAfterSignal();
     });
     try {
-        Progress progress(!settings.quiet, weightOf(partsOf(ranks, plan)));
+        Progress progress(!settings.quiet, partsOf(ranks, plan));
         const Site site{settings, layout, folder, progress};
         doParts(site, plan, ranks, meetings);
         const std::vector<BuiltTile> starts = buildStarts(site, plan);
@@ -289,7 +284,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
         tell(tally, settings.output, layout.startLevel(), time.count());
     } catch (const Interrupted&) {
-        throw Interrupted(interruption(folder, plan.size()));
+        throw Interrupted("interrupted" + whatIsKept(folder, plan.size()));
     } catch (const Failure& failure) {
         throw Failure(failure.what() + whatIsKept(folder, plan.size()));
     }
@@ -312,7 +307,7 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
         const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
         meetings.hold();
         const DatabaseFolder folder(settings.output);
-        Progress progress(false, 1.0);
+        Progress progress(false, plan);
         doParts({settings, layout, folder, progress}, plan, ranks, meetings);
     } catch (const Interrupted&) {
         // the first rank knows why
@@ -334,12 +329,6 @@ TileLayout checkedLayoutFor(const Settings& settings) {
         throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
     }
     return layoutFor(settings, mosaic);
-}
-
-double weightOf(const std::vector<Task>& tasks) {
-    double sum = 0.0;
-    for (const Task& task : tasks) sum += task.weight;
-    return sum;
 }
 
 std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {

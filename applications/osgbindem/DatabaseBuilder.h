@@ -46,12 +46,20 @@ using ChangedArea = std::vector<RectDeg>;
 /// Compares the descriptions of two databases. Returns: nullopt when more than rasters and images differs.
 [[nodiscard]] std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now);
 
+/// A subtree that one thread builds by itself.
+struct Task {
+    TileId tile;
+    /// About the number of tiles without children in it.
+    double weight = 0.0;
+};
+
 /// Shows how much is done; may be used by several threads. On a terminal it is a line that is written over, with the
 /// time that is left; elsewhere it is GDAL's row of numbers.
 class Progress final {
 public:
-    Progress(bool isShown, double total)
-        : _isShown(isShown), _isRow(!_line.isTerminal() || launchedRank() != nullptr), _total(total) {
+    Progress(bool isShown, const std::vector<Task>& tasks)
+        : _isShown(isShown), _isRow(!_line.isTerminal() || launchedRank() != nullptr) {
+        for (const Task& task : tasks) _total += task.weight;
         add(0.0);
     }
 
@@ -73,7 +81,7 @@ private:
     osgAnalyticBin::support::ProgressLine _line{stdout};
     const bool _isShown;
     const bool _isRow;
-    const double _total;
+    double _total = 0.0;
     double _done = 0.0;
 };
 
@@ -81,19 +89,10 @@ private:
 /// are closed again. Says what the user should know of them, unless that is quiet. Throws Failure.
 [[nodiscard]] TileLayout checkedLayoutFor(const Settings& settings);
 
-/// A subtree that one thread builds by itself.
-struct Task {
-    TileId tile;
-    /// About the number of tiles without children in it.
-    double weight = 0.0;
-};
-
 /// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
 /// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
 /// No raster is read.
 [[nodiscard]] std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout);
-
-[[nodiscard]] double weightOf(const std::vector<Task>& tasks);
 
 /// What the threads share that build or update one database.
 struct Site {

@@ -6,7 +6,6 @@
 #include "Checksum.h"
 #include "Interruption.h"
 #include "RecordStream.h"
-#include "TextFile.h"
 #include "TileBuilder.h"
 
 #include <cpl_string.h>
@@ -88,9 +87,6 @@ bool isStartName(const std::string& name) {
 std::string tileName(const TileId& tile) {
     return CPLSPrintf("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
 }
-
-TileFiles::TileFiles(std::string folder, std::string finalName)
-    : _folder(std::move(folder)), _finalName(std::move(finalName)) {}
 
 std::string TileFiles::childrenFile(const TileId& tile, bool isInRoot) const {
     const std::string file = fileOf(tile);
@@ -194,10 +190,6 @@ std::string DatabaseFolder::recordOf(const TileId& tile) const {
     return stateFolder() + "/" + startName(tile) + "/" + tileName(tile) + ".task";
 }
 
-bool DatabaseFolder::isStateOf(const std::string& sources) const {
-    return support::contentOf(stateSources()) == sources;
-}
-
 void DatabaseFolder::beginState(const std::string& sources) const {
     support::makeFolder(stateFolder());
     writeFile(stateSources(), sources);
@@ -241,10 +233,6 @@ std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileL
     found.id = tile;
     found.grid = *known;
     return found;
-}
-
-std::string DatabaseFolder::standingSources() const {
-    return support::contentOf(_sources);
 }
 
 void DatabaseFolder::writeRoot(const std::string& rootBytes, const std::string& sources) const {

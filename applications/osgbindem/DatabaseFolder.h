@@ -4,6 +4,7 @@
 #pragma once
 
 #include "DiskFile.h"
+#include "TextFile.h"
 #include "TileLayout.h"
 
 #include <cstddef>
@@ -11,9 +12,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
+
+using namespace osgAnalyticBin::tiles;
 
 /// Of the file with the children of a tile.
 [[nodiscard]] std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept;
@@ -29,7 +33,8 @@ namespace osgbindem {
 class TileFiles final {
 public:
     /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have.
-    TileFiles(std::string folder, std::string finalName);
+    TileFiles(std::string folder, std::string finalName)
+        : _folder(std::move(folder)), _finalName(std::move(finalName)) {}
 
     /// Name of the file with the children of a tile, seen from the file that has the tile, which may be the root file.
     [[nodiscard]] std::string childrenFile(const TileId& tile, bool isInRoot) const;
@@ -65,8 +70,6 @@ class DatabaseFolder final {
 public:
     /// Throws Failure when no database can be there.
     explicit DatabaseFolder(const std::string& rootFile);
-    DatabaseFolder(const DatabaseFolder&) = delete;
-    DatabaseFolder& operator=(const DatabaseFolder&) = delete;
     /// Removes what is not complete, unless a later run can go on with it.
     ~DatabaseFolder();
 
@@ -86,10 +89,12 @@ public:
     /// The files of the complete database.
     [[nodiscard]] const TileFiles& standingFiles() const { return _standingFiles; }
     /// What the complete database is built from; empty when there is none or nobody knows.
-    [[nodiscard]] std::string standingSources() const;
+    [[nodiscard]] std::string standingSources() const { return osgAnalyticBin::support::contentOf(_sources); }
 
     /// Whether the state belongs to a database that is built from just this.
-    [[nodiscard]] bool isStateOf(const std::string& sources) const;
+    [[nodiscard]] bool isStateOf(const std::string& sources) const {
+        return osgAnalyticBin::support::contentOf(stateSources()) == sources;
+    }
     /// Requires: there is no state. Throws Failure.
     void beginState(const std::string& sources) const;
     /// How many tasks have records, whole ones or not.

@@ -153,7 +153,7 @@ void updateDatabase(const Settings& given) {
         std::copy_if(plan.begin(), plan.end(), std::back_inserter(tasks),
                      [&](const Task& task) { return update.hasChanged(builder, task.tile); });
     }
-    Progress progress(!settings.quiet, weightOf(tasks));
+    Progress progress(!settings.quiet, tasks);
     const Site site{settings, layout, folder, progress,
                     [&](TileBuilder& builder, const TileId& tile) { return update.find(builder, tile); }};
     std::string root;

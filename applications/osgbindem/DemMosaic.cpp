@@ -70,21 +70,19 @@ public:
 
     /// Holds those of all positions of the raster within the rectangle.
     [[nodiscard]] Interval range(const RectDeg& rect, const RasterGrid& grid) const {
-        if (isNone()) return {0.0, 0.0};
         // Between these places the geoid differs by no more than its steepest slope allows.
-        constexpr int kPlaces = 16;
+        constexpr int kPlaces = 16;         // along a side
         constexpr double kSteepest = 25.0;  // metres a degree
-        const double margin = kSteepest * std::max(rect.north - rect.south, rect.east - rect.west) / kPlaces;
-        Interval range = Interval::none();
-        for (int row = 0; row <= kPlaces; ++row) {
-            for (int column = 0; column <= kPlaces; ++column) {
-                const PositionDeg position{rect.south + (rect.north - rect.south) * row / kPlaces,
-                                           rect.west + (rect.east - rect.west) * column / kPlaces};
-                if (!grid.locate(position)) continue;
-                const double metres = at(position);
-                range.expandBy(metres - margin);
-                range.expandBy(metres + margin);
-            }
+        const double height = (rect.north - rect.south) / kPlaces;
+        const double width = (rect.east - rect.west) / kPlaces;
+        const double margin = kSteepest * std::max(height, width);
+        Interval range = isNone() ? Interval{0.0, 0.0} : Interval::none();
+        for (int i = 0; !isNone() && i < (kPlaces + 1) * (kPlaces + 1); ++i) {
+            const PositionDeg position{rect.south + height * (i / (kPlaces + 1)),
+                                       rect.west + width * (i % (kPlaces + 1))};
+            if (!grid.locate(position)) continue;
+            const double metres = at(position);
+            range = range.united({metres - margin, metres + margin});
         }
         return range;
     }
@@ -191,9 +189,8 @@ public:
             return true;
         });
         const Interval shift = _shift.range(rect, grid());
-        if (own.width() < 0.0 || shift.width() < 0.0) return isComplete;
-        range.expandBy(own.lower + shift.lower);
-        range.expandBy(own.upper + shift.upper);
+        if (own.width() >= 0.0 && shift.width() >= 0.0)
+            range = range.united({own.lower + shift.lower, own.upper + shift.upper});
         return isComplete;
     }
 

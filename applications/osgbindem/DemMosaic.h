@@ -29,8 +29,6 @@ class DemMosaic final {
 public:
     /// Throws Failure.
     explicit DemMosaic(const Settings& settings, const TileLayout* layout = nullptr);
-    DemMosaic(const DemMosaic&) = delete;
-    DemMosaic& operator=(const DemMosaic&) = delete;
     ~DemMosaic();
 
     /// Above the ellipsoid; the same for the same position, whatever was read before. Returns: nullopt where no raster

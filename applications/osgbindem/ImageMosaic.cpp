@@ -6,6 +6,7 @@
 #include "RasterLayer.h"
 #include "TileMesh.h"
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -144,8 +145,7 @@ public:
             const osg::Vec4ub& colour = (*_colours)[i];
             return glm::dvec3(colour.r(), colour.g(), colour.b());
         };
-        return {(1.0 - v) * ((1.0 - u) * post(0, 0) + u * post(1, 0)) + v * ((1.0 - u) * post(0, 1) + u * post(1, 1)),
-                1.0};
+        return {glm::mix(glm::mix(post(0, 0), post(1, 0), u), glm::mix(post(0, 1), post(1, 1), u), v), 1.0};
     }
 
 private:

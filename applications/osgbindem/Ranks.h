@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 

@@ -4,7 +4,6 @@
 #include "RasterFile.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -139,8 +138,7 @@ private:
 
 /// What the raster says of its unit; nullopt for units that are no length.
 std::optional<double> declaredMetresPerUnit(GDALRasterBand& band, const OGRSpatialReference* reference) {
-    std::string unit = band.GetUnitType();
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string unit = CPLString(band.GetUnitType()).tolower();
     if (unit.empty()) {
         const bool isCompound = reference != nullptr && reference->IsCompound() != 0;
         return isCompound ? reference->GetTargetLinearUnits("VERT_CS") : 1.0;

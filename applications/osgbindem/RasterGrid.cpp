@@ -10,9 +10,6 @@ namespace osgbindem {
 
 namespace {
 
-// Positions closer than this to a post, in pixels, are on it: geotransforms carry about nine digits.
-constexpr double kSnap = 1e-6;
-
 int floorOf(double value) {
     return static_cast<int>(std::floor(value));
 }
@@ -20,21 +17,7 @@ int ceilOf(double value) {
     return static_cast<int>(std::ceil(value));
 }
 
-double snapped(double value) {
-    const double nearest = std::nearbyint(value);
-    return std::abs(value - nearest) < kSnap ? nearest : value;
-}
-
 }  // namespace
-
-RectDeg RectDeg::grownBy(double borderDeg) const noexcept {
-    return {west - borderDeg, std::max(south - borderDeg, -90.0), east + borderDeg, std::min(north + borderDeg, 90.0)};
-}
-
-RectDeg RectDeg::turnedTo(const RectDeg& other) const noexcept {
-    const double turn = 360.0 * std::round((0.5 * (other.west + other.east) - 0.5 * (west + east)) / 360.0);
-    return {west + turn, south, east + turn, north};
-}
 
 RasterGrid::RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept
     : _width(width),
@@ -53,10 +36,6 @@ RasterGrid::RasterGrid(const std::array<double, 6>& geoTransform, int width, int
     }
 }
 
-double RasterGrid::resolutionDeg() const noexcept {
-    return std::min(_dx, std::abs(_dy));
-}
-
 RectDeg RasterGrid::extent() const noexcept {
     const double west = _firstLongitude - 0.5 * _dx;
     const double a = _firstLatitude - 0.5 * _dy;
@@ -69,6 +48,10 @@ bool RasterGrid::covers(const RectDeg& rect) const noexcept {
 }
 
 std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const noexcept {
+    const auto snapped = [](double value) {
+        const double nearest = std::nearbyint(value);
+        return std::abs(value - nearest) < kSnap ? nearest : value;
+    };
     const double half = 0.5 + kSnap;
     double row = rowOf(position.latitudeDeg);
     if (!(row >= -half && row <= _height - 1 + half)) return std::nullopt;
@@ -95,8 +78,12 @@ std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const no
     return cell;
 }
 
-std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const {
-    const int first = std::max(firstRow, 0);
+std::vector<PixelWindow> RasterGrid::windows(const RectDeg& rect, double snap, int inward) const {
+    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
+    const int firstColumn = floorOf(columnOf(rect.west) + snap) + inward;
+    const int lastColumn = ceilOf(columnOf(rect.east) - snap) - inward;
+    const int lastRow = ceilOf(high - snap) - inward;
+    const int first = std::max(floorOf(low + snap) + inward, 0);
     const int rows = std::min(lastRow, _height - 1) - first + 1;
     if (rows <= 0 || lastColumn < firstColumn) return {};
     if (_isGlobal && lastColumn - firstColumn >= _width) return {{0, first, _width, rows}};
@@ -108,18 +95,6 @@ std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, in
         if (a <= b) result.push_back({a, first, b - a + 1, rows});
     }
     return result;
-}
-
-std::vector<PixelWindow> RasterGrid::touching(const RectDeg& rect) const {
-    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
-    return windows(floorOf(columnOf(rect.west) - kSnap), ceilOf(columnOf(rect.east) + kSnap), floorOf(low - kSnap),
-                   ceilOf(high + kSnap));
-}
-
-std::vector<PixelWindow> RasterGrid::inside(const RectDeg& rect) const {
-    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
-    return windows(floorOf(columnOf(rect.west) + kSnap) + 1, ceilOf(columnOf(rect.east) - kSnap) - 1,
-                   floorOf(low + kSnap) + 1, ceilOf(high - kSnap) - 1);
 }
 
 }  // namespace osgbindem

@@ -3,39 +3,17 @@
 
 #pragma once
 
+#include "Degrees.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 namespace osgbindem {
 
-struct PositionDeg {
-    double latitudeDeg = 0.0;
-    double longitudeDeg = 0.0;
-};
-
-struct RectDeg {
-    double west = 0.0;
-    double south = 0.0;
-    double east = 0.0;
-    double north = 0.0;
-
-    /// The same rectangle with a border on all sides, cut at the poles.
-    [[nodiscard]] RectDeg grownBy(double borderDeg) const noexcept;
-
-    /// The same area, moved by whole turns so that it lies next to the other one.
-    [[nodiscard]] RectDeg turnedTo(const RectDeg& other) const noexcept;
-
-    /// The area in square degrees that the rectangles have in common, longitudes modulo 360.
-    [[nodiscard]] double overlap(const RectDeg& other) const noexcept {
-        const double height = std::min(north, other.north) - std::max(south, other.south);
-        double width = 0.0;
-        for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0})
-            width += std::max(0.0, std::min(east + turn, other.east) - std::max(west + turn, other.west));
-        return width * std::max(0.0, height);
-    }
-};
+using namespace osgAnalyticBin::tiles;
 
 /// A rectangle of pixels.
 struct PixelWindow {
@@ -74,7 +52,9 @@ public:
     [[nodiscard]] bool isGlobal() const noexcept { return _isGlobal; }
 
     /// The smaller of the two distances between posts.
-    [[nodiscard]] double resolutionDeg() const noexcept;
+    [[nodiscard]] double resolutionDeg() const noexcept { return std::min(_dx, std::abs(_dy)); }
+    /// The larger one.
+    [[nodiscard]] double coarsestDeg() const noexcept { return std::max(_dx, std::abs(_dy)); }
 
     /// The area of the pixels; may pass +-90 by half a pixel.
     [[nodiscard]] RectDeg extent() const noexcept;
@@ -88,10 +68,10 @@ public:
     [[nodiscard]] std::optional<PostCell> locate(const PositionDeg& position) const noexcept;
 
     /// All posts whose bilinear footprint touches the rectangle, as at most three windows.
-    [[nodiscard]] std::vector<PixelWindow> touching(const RectDeg& rect) const;
+    [[nodiscard]] std::vector<PixelWindow> touching(const RectDeg& rect) const { return windows(rect, -kSnap, 0); }
 
     /// The posts that lie within the rectangle and not on its edge.
-    [[nodiscard]] std::vector<PixelWindow> inside(const RectDeg& rect) const;
+    [[nodiscard]] std::vector<PixelWindow> inside(const RectDeg& rect) const { return windows(rect, kSnap, 1); }
 
     [[nodiscard]] PositionDeg position(int column, int row) const noexcept {
         return {_firstLatitude + row * _dy, _firstLongitude + column * _dx};
@@ -101,7 +81,10 @@ public:
     [[nodiscard]] double rowOf(double latitudeDeg) const noexcept { return (latitudeDeg - _firstLatitude) / _dy; }
 
 private:
-    [[nodiscard]] std::vector<PixelWindow> windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
+    // Positions closer than this to a post, in pixels, are on it: geotransforms carry about nine digits.
+    static constexpr double kSnap = 1e-6;
+
+    [[nodiscard]] std::vector<PixelWindow> windows(const RectDeg& rect, double snap, int inward) const;
 
     int _width = 1;
     int _height = 1;

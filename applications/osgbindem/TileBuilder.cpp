@@ -10,7 +10,6 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <ogr_spatialref.h>
-#include <osg/LightModel>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
 
@@ -54,20 +53,6 @@ std::string nodeFileBytes(const osg::Node& node, bool compress) {
     const osgDB::ReaderWriter::WriteResult result = writer->writeNode(node, stream, options);
     if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
     return stream.str();
-}
-
-/// The root node of a database, without tiles.
-osg::ref_ptr<osg::CoordinateSystemNode> litRoot(const Settings& settings) {
-    OGRSpatialReference reference;
-    if (settings.isWgs84) reference.importFromEPSG(4326);
-    const osg::ref_ptr<osg::CoordinateSystemNode> root =
-        makeRoot(settings.ellipsoid, settings.isWgs84 ? wktOf(reference) : std::string());
-    // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
-    constexpr float kAmbient = 0.5F;
-    const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
-    light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
-    root->getOrCreateStateSet()->setAttribute(light);
-    return root;
 }
 
 }  // namespace
@@ -182,7 +167,7 @@ BuiltTile TileBuilder::build(const TileId& id) {
     const RectDeg rect = id.rect();
     AnalyticBin bin(GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, tile.range));
     bin.expandBy(tile.below);
-    MeshExtent extent = extentOf(grid, _triangles, id);
+    MeshExtent extent = extentOf(grid, _triangles);
     // Where a packed tile is read, vertices may be rounded to the next step, for sines differ in their last bits.
     if (_settings.packed) extent.bin.setMargin(extent.bin.margin() + 2.0 * grid.quantum);
     bin.expandBy(extent.bin);
@@ -211,7 +196,10 @@ void prepareNodeFiles() {
 
 std::string rootFileBytes(const std::vector<BuiltTile>& startTiles, const Settings& settings,
                           const TileLayout& layout) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = litRoot(settings);
+    OGRSpatialReference reference;
+    if (settings.isWgs84) reference.importFromEPSG(4326);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root =
+        makeRoot(settings.ellipsoid, settings.isWgs84 ? wktOf(reference) : std::string());
     SharedParts shared(layout.cells(), settings.packed);
     for (const BuiltTile& tile : startTiles) {
         root->addChild(tile.node);

@@ -15,10 +15,10 @@
 #include <dlfcn.h>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <optional>
-#include <sched.h>
 #include <thread>
+#include <unistd.h>
+#include <utility>
 
 namespace {
 
@@ -31,13 +31,10 @@ using osgbindem::Settings;
 
 /// Threads for each program, so that those on one machine keep its processors busy.
 int threadsPerRank(const Ranks& ranks) {
-    const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    if (ranks.count() == 1) return machine;
-    // mpirun binds each program to a part of the machine
-    cpu_set_t mine;
-    CPU_ZERO(&mine);
-    const int bound = sched_getaffinity(0, sizeof mine, &mine) == 0 ? CPU_COUNT(&mine) : machine;
-    return std::max(1, std::min(bound, machine / ranks.countHere()));
+    // mpirun may bind each program to a part of the machine
+    const int mine = static_cast<int>(std::thread::hardware_concurrency());
+    const int machine = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    return std::max(1, std::min(mine, machine / ranks.countHere()));
 }
 
 /// Only mpirun's environment makes MPI load and start, which takes a tenth of a second. Throws Failure.
@@ -68,19 +65,15 @@ void setSpeaker(bool is) {
     for (std::ostream* stream : {&std::cout, &std::cerr}) stream->clear(is ? std::ios::goodbit : std::ios::failbit);
 }
 
-/// A setting of GDAL's that the user's environment may have otherwise.
-void setUnlessGiven(const char* name, const char* value) {
-    if (CPLGetConfigOption(name, nullptr) == nullptr) CPLSetConfigOption(name, value);
-}
-
 void prepareProcess(const Settings& settings) {
     for (std::size_t i = 0; i + 1 < settings.config.size(); i += 2) {
         CPLSetConfigOption(settings.config[i].c_str(), settings.config[i + 1].c_str());
     }
     GDALAllRegister();
     GDALSetCacheMax64((GIntBig{settings.memoryMib} << 20) / 2);
-    setUnlessGiven("GDAL_HTTP_MAX_RETRY", "5");
-    setUnlessGiven("GDAL_HTTP_RETRY_DELAY", "1");
+    // The user's environment may have them otherwise.
+    for (const auto& [name, value] : {std::pair("GDAL_HTTP_MAX_RETRY", "5"), {"GDAL_HTTP_RETRY_DELAY", "1"}})
+        if (CPLGetConfigOption(name, nullptr) == nullptr) CPLSetConfigOption(name, value);
     CPLSetErrorHandler(CPLQuietErrorHandler);
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     osgAnalyticBin::support::stopOnSignals();
@@ -110,13 +103,7 @@ int main(int argc, char** argv) {
     // Until MPI has started, the environment tells which one is the first.
     const char* rank = osgbindem::launchedRank();
     setSpeaker(rank == nullptr || std::atoi(rank) == 0);
-    const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] {
-        try {
-            return run(argc, argv);
-        } catch (const std::bad_alloc&) {
-            throw Failure("out of memory; use fewer --threads or fewer --cells");
-        }
-    });
+    const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] { return run(argc, argv); });
     // Every rank finds the same faults in the command line, and the first one tells what goes wrong later. The others
     // end in peace: mpirun would end the first before it has spoken.
     return isSpeaker || code == osgAnalyticBin::support::kInterrupted ? code : kSucceeded;

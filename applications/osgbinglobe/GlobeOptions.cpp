@@ -15,8 +15,8 @@ namespace osgAnalyticBin::globe {
 namespace {
 
 using flight::textFrom;
-using osgbindem::TileId;
 using support::Failure;
+using tiles::TileId;
 
 std::optional<TileId> tileFrom(const std::string& name) {
     TileId tile;

@@ -38,7 +38,7 @@ inline constexpr const char* kGlobeExtension = "proceduralglobe";
 struct GlobeName {
     GlobeOptions options;
     /// The tile whose children are asked for; nullopt: the root.
-    std::optional<osgbindem::TileId> tile;
+    std::optional<tiles::TileId> tile;
 };
 
 /// Reads "LEVELS.proceduralglobe", "(levels=LEVELS,cells=CELLS).proceduralglobe", both at once as
@@ -49,7 +49,7 @@ struct GlobeName {
 [[nodiscard]] GlobeName globeNameOf(const std::string& fileName, const std::string& optionString);
 
 /// The file with the children of a tile. Requires: a tile above the deepest level.
-[[nodiscard]] std::string childrenFileOf(const osgbindem::TileId& tile, const GlobeOptions& options);
+[[nodiscard]] std::string childrenFileOf(const tiles::TileId& tile, const GlobeOptions& options);
 
 /// The root file.
 [[nodiscard]] std::string rootFileOf(const GlobeOptions& options);

@@ -15,8 +15,8 @@
 
 namespace osgAnalyticBin::globe {
 
-using osgbindem::PostId;
-using osgbindem::TileId;
+using tiles::PostId;
+using tiles::TileId;
 
 namespace {
 
@@ -41,10 +41,7 @@ constexpr const char* kWkt =
 }  // namespace
 
 ProceduralGlobe::ProceduralGlobe(const GlobeOptions& options)
-    : _options(options),
-      _layout(options.cells, options.levels, wgs84()),
-      _terrain(options.relief),
-      _triangles(osgAnalyticBin::trianglesOf(options.cells)) {}
+    : _options(options), _layout(options.cells, options.levels, wgs84()), _terrain(options.relief) {}
 
 // How far the edge of a mesh may be above or below the terrain: heights between posts and their rounding, and the sag
 // of the chords.
@@ -70,7 +67,7 @@ std::int32_t ProceduralGlobe::skirtLean(int level) const noexcept {
 
 // The box of all meshes of one level in a tile's rectangle, the tile's own or those of its descendants.
 core::GeodeticBin ProceduralGlobe::meshBox(const TileId& tile, int level, const core::Interval& heights) const {
-    const osgbindem::RectDeg rect = tile.rect();
+    const tiles::RectDeg rect = tile.rect();
     constexpr double kLeastRadius = 6.2e6;  // of a meridian's curves, at the feet of skirts
     const double leanDeg = kStep * skirtLean(tile.level) / kLeastRadius / kRadiansPerDegree;
     const core::GeodeticBin grown =
@@ -94,11 +91,11 @@ AnalyticBin ProceduralGlobe::binOf(const TileId& tile, const core::Interval& own
 }
 
 AnalyticBin ProceduralGlobe::binOf(const TileId& tile) const {
-    return binOf(tile, osgbindem::heightsOf(gridOf(tile)));
+    return binOf(tile, tiles::heightsOf(gridOf(tile)));
 }
 
 TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
-    TerrainGrid grid = osgbindem::gridWithoutHeights(_layout, tile);
+    TerrainGrid grid = tiles::gridWithoutHeights(_layout, tile);
     const auto postAt = [&](int column, int row) {
         return PostId{tile.level, grid.firstColumn + column, grid.firstRow + row};
     };
@@ -106,12 +103,12 @@ TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
         for (int column = -1; column <= grid.cells + 1; ++column)
             grid.heights.push_back(static_cast<std::int32_t>(
                 std::nearbyint(_terrain.height(_layout.position(postAt(column, row))) / kStep)));
-    osgbindem::placeOrigin(grid, _layout, tile.level);
+    tiles::placeOrigin(grid, _layout, tile.level);
     const auto posts = static_cast<std::size_t>(grid.cells + 1);
     const auto depth = static_cast<std::int32_t>(skirtDepth(tile.level) / kStep);
-    for (const osgbindem::Edge edge : osgbindem::kEdges) {
+    for (const tiles::Edge edge : tiles::kEdges) {
         // eastern and western neighbours share a meridian, and beyond a pole there is none
-        const bool leans = edge <= osgbindem::Edge::North && tile.neighbour(edge);
+        const bool leans = edge <= tiles::Edge::North && tile.neighbour(edge);
         const std::int32_t lean = leans ? skirtLean(tile.level) : 0;
         grid.skirts[static_cast<std::size_t>(edge)] = {std::vector<std::int32_t>(posts, depth),
                                                        std::vector<std::int32_t>(posts, lean)};
@@ -121,35 +118,32 @@ TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
     return grid;
 }
 
-osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osg::PrimitiveSet& triangles) const {
+osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, tiles::SharedParts& shared) const {
     const TerrainGrid grid = gridOf(tile);
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    fillGeometry(grid, *geometry);
-    geometry->addPrimitiveSet(&triangles);
-    const osg::ref_ptr<osg::Node> placed = osgbindem::makePlaced(*geometry, grid.origin);
-    const core::Interval own = osgbindem::heightsOf(grid);
+    const osg::ref_ptr<osg::Geometry> geometry = tiles::makeGeometry(grid, nullptr, false);
+    shared.addTo(*geometry, 0);
+    const osg::ref_ptr<osg::Node> placed = tiles::makePlaced(*geometry, grid.origin);
+    const core::Interval own = tiles::heightsOf(grid);
     const double surfaceLow = meshBox(tile, tile.level, own).altitude().lower + skirtDepth(tile.level);
-    const osgbindem::TileFacts facts{binOf(tile, own), surfaceLow, _layout, _options.lod,
-                                     hasChildren(tile) ? childrenFileOf(tile, _options) : ""};
-    osg::ref_ptr<osg::Node> node = osgbindem::makeTileNode(tile, *placed, facts);
+    const tiles::TileFacts facts{binOf(tile, own), surfaceLow, _layout, _options.lod,
+                                 hasChildren(tile) ? childrenFileOf(tile, _options) : ""};
+    osg::ref_ptr<osg::Node> node = tiles::makeTileNode(tile, *placed, facts);
     if (!_options.bins) node->setUserDataContainer(nullptr);
     return node;
 }
 
 osg::ref_ptr<osg::Node> ProceduralGlobe::children(const TileId& tile) const {
-    const osg::ref_ptr<osg::PrimitiveSet> triangles =
-        new osg::DrawElementsUShort(GL_TRIANGLES, _triangles.begin(), _triangles.end());
+    tiles::SharedParts shared(_layout.cells(), false);
     const osg::ref_ptr<osg::Group> group = new osg::Group;
-    for (const TileId& child : tile.children()) group->addChild(tileNode(child, *triangles));
+    for (const TileId& child : tile.children()) group->addChild(tileNode(child, shared));
     return group;
 }
 
 osg::ref_ptr<osg::Node> ProceduralGlobe::root() const {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = osgbindem::makeRoot(_layout.ellipsoid(), kWkt);
-    const osg::ref_ptr<osg::PrimitiveSet> triangles =
-        new osg::DrawElementsUShort(GL_TRIANGLES, _triangles.begin(), _triangles.end());
-    for (const TileId& tile : _layout.startTiles()) root->addChild(tileNode(tile, *triangles));
-    if (_options.bins) osgbindem::declareHorizon(*root);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = tiles::makeRoot(_layout.ellipsoid(), kWkt);
+    tiles::SharedParts shared(_layout.cells(), false);
+    for (const TileId& tile : _layout.startTiles()) root->addChild(tileNode(tile, shared));
+    if (_options.bins) tiles::declareHorizon(*root);
     return root;
 }
 

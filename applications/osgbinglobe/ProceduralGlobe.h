@@ -10,12 +10,11 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <osg/Node>
-#include <osg/PrimitiveSet>
 
 #include <TileLayout.h>
+#include <TileMesh.h>
 #include <TileNode.h>
 #include <cstdint>
-#include <vector>
 
 namespace osgAnalyticBin::globe {
 
@@ -32,35 +31,31 @@ public:
 
     /// A Group with the four quarters of a tile. Requires: a tile above the deepest level.
     /// Cost: some half a millisecond with 16 cells.
-    [[nodiscard]] osg::ref_ptr<osg::Node> children(const osgbindem::TileId& tile) const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> children(const tiles::TileId& tile) const;
 
     /// Of the tile and all below it, skirts included.
     /// Guarantee: holds every triangle of the tile and the bins of its children; tests: ProceduralGlobe.*.
-    [[nodiscard]] AnalyticBin binOf(const osgbindem::TileId& tile) const;
+    [[nodiscard]] AnalyticBin binOf(const tiles::TileId& tile) const;
 
     /// Metres that the skirts of a level hang down: as far as the edges of neighbours one level coarser, or any number
     /// finer, can be apart.
     [[nodiscard]] double skirtDepth(int level) const noexcept;
 
-    [[nodiscard]] const osgbindem::TileLayout& layout() const noexcept { return _layout; }
+    [[nodiscard]] const tiles::TileLayout& layout() const noexcept { return _layout; }
     [[nodiscard]] const ProceduralTerrain& terrain() const noexcept { return _terrain; }
 
 private:
-    [[nodiscard]] bool hasChildren(const osgbindem::TileId& tile) const noexcept {
-        return tile.level < _options.levels;
-    }
+    [[nodiscard]] bool hasChildren(const tiles::TileId& tile) const noexcept { return tile.level < _options.levels; }
     [[nodiscard]] double edgeError(int level) const noexcept;
     [[nodiscard]] std::int32_t skirtLean(int level) const noexcept;
-    [[nodiscard]] TerrainGrid gridOf(const osgbindem::TileId& tile) const;
-    [[nodiscard]] AnalyticBin binOf(const osgbindem::TileId& tile, const core::Interval& own) const;
-    [[nodiscard]] core::GeodeticBin meshBox(const osgbindem::TileId& tile, int level,
-                                            const core::Interval& heights) const;
-    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const osgbindem::TileId& tile, osg::PrimitiveSet& triangles) const;
+    [[nodiscard]] TerrainGrid gridOf(const tiles::TileId& tile) const;
+    [[nodiscard]] AnalyticBin binOf(const tiles::TileId& tile, const core::Interval& own) const;
+    [[nodiscard]] core::GeodeticBin meshBox(const tiles::TileId& tile, int level, const core::Interval& heights) const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> tileNode(const tiles::TileId& tile, tiles::SharedParts& shared) const;
 
     GlobeOptions _options;
-    osgbindem::TileLayout _layout;
+    tiles::TileLayout _layout;
     ProceduralTerrain _terrain;
-    std::vector<std::uint16_t> _triangles;
 };
 
 }  // namespace osgAnalyticBin::globe

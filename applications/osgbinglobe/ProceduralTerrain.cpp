@@ -54,7 +54,7 @@ ProceduralTerrain::ProceduralTerrain(double relief) noexcept : _middle(0.5 * rel
     for (Wave& wave : _waves) wave.amplitude *= _middle / sum;
 }
 
-double ProceduralTerrain::height(const osgbindem::PositionDeg& position) const noexcept {
+double ProceduralTerrain::height(const tiles::PositionDeg& position) const noexcept {
     const double latitude = position.latitudeDeg * kRadiansPerDegree;
     const double longitude = position.longitudeDeg * kRadiansPerDegree;
     const glm::dvec3 up(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
@@ -65,7 +65,7 @@ double ProceduralTerrain::height(const osgbindem::PositionDeg& position) const n
     return height;
 }
 
-core::Interval ProceduralTerrain::heightsIn(const osgbindem::RectDeg& rect) const noexcept {
+core::Interval ProceduralTerrain::heightsIn(const tiles::RectDeg& rect) const noexcept {
     // Of rounding: sines of arguments up to 1e7, and all sums.
     constexpr double kRounding = 1e-6;
     const core::GeodeticBin directions =

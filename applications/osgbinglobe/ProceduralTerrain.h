@@ -20,12 +20,12 @@ public:
     /// `relief`: metres; heights lie in 0 .. relief.
     explicit ProceduralTerrain(double relief) noexcept;
 
-    [[nodiscard]] double height(const osgbindem::PositionDeg& position) const noexcept;
+    [[nodiscard]] double height(const tiles::PositionDeg& position) const noexcept;
 
     /// Bounds of the heights in a rectangle, wave by wave: the narrower the rectangle, the tighter.
     /// Guarantee: holds every height; that of a part of a rectangle lies within that of the whole, up to a
     /// micrometre; tests: ProceduralTerrain.*.
-    [[nodiscard]] core::Interval heightsIn(const osgbindem::RectDeg& rect) const noexcept;
+    [[nodiscard]] core::Interval heightsIn(const tiles::RectDeg& rect) const noexcept;
 
     /// Upper bound in metres of how far heights between two posts of a meridian or parallel are from the straight
     /// line between those of the posts. `spacing`: radians.

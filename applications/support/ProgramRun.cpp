@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <iostream>
+#include <new>
 
 namespace osgAnalyticBin::support {
 
@@ -22,6 +23,8 @@ ExitCode runProgram(const std::string& name, const std::function<ExitCode()>& ru
         return complain(error, kInterrupted);
     } catch (const UsageError& error) {
         return complain(error, kWrongUsage);
+    } catch (const std::bad_alloc&) {
+        return complain(Failure("out of memory; use fewer --threads, or close other programs"), kFailed);
     } catch (const std::exception& error) {
         return complain(error, kFailed);
     }

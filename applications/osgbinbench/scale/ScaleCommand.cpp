@@ -101,15 +101,15 @@ void settle(MethodScene& scene, const CameraPose& pose) {
 /// Stops from 10 000 km above the terrain down to where tiles of the deepest level are near enough.
 std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     constexpr double kMetresPerDegree = 111195.0;
-    constexpr osgbindem::PositionDeg kStart{46.0, 10.0};
+    constexpr tiles::PositionDeg kStart{46.0, 10.0};
     constexpr double kHighest = 1e7;       // metres above the terrain
     constexpr double kSlant = 2.5;         // metres ahead for each metre up
     constexpr double kFarthestDeg = 20.0;  // but no further round the globe
     constexpr double kFovDeg = 60.0;
     // In front of the camera the line of sight meets the ground within a few tiles of the deepest level.
-    const double tile = std::ldexp(osgbindem::TileLayout::kStartTileDeg, -options.levels) * kMetresPerDegree;
+    const double tile = std::ldexp(tiles::TileLayout::kStartTileDeg, -options.levels) * kMetresPerDegree;
     const globe::ProceduralTerrain terrain(options.relief);
-    const auto above = [&](const osgbindem::PositionDeg& at, double metres) {
+    const auto above = [&](const tiles::PositionDeg& at, double metres) {
         return core::Geodetic{at.latitudeDeg * kRadiansPerDegree, at.longitudeDeg * kRadiansPerDegree,
                               terrain.height(at) + metres};
     };

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "TerrainGrid.h"
-#include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -15,18 +14,17 @@
 #include <map>
 #include <vector>
 
-namespace osgbindem {
+namespace osgAnalyticBin::tiles {
 
 /// Gives the grid a texture of this size, or the colours of the relief for 0.
-void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize);
+void colour(TerrainGrid& grid, int textureSize);
 
 /// The colours that the relief has at the posts of a grid without a texture, row by row from the south-west.
-[[nodiscard]] osg::ref_ptr<const osg::Vec4ubArray> reliefColours(osgAnalyticBin::TerrainGrid grid);
+[[nodiscard]] osg::ref_ptr<const osg::Vec4ubArray> reliefColours(TerrainGrid grid);
 
 /// What is stored of a tile, with the image as its texture; the parts that tiles share are added by SharedParts.
 /// `isPacked`: the grid in place of the mesh, and the image in blocks (DXT1).
-[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image,
-                                                       bool isPacked);
+[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const TerrainGrid& grid, osg::Image* image, bool isPacked);
 
 /// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
 class SharedParts final {
@@ -46,14 +44,11 @@ private:
 
 /// Where a mesh lies.
 struct MeshExtent {
-    osgAnalyticBin::AnalyticBin bin;  ///< of everything the mesh draws
-    double surfaceLow;                ///< metres; nothing but skirts is lower, the bin's margin apart
+    AnalyticBin bin;    ///< of everything the mesh draws
+    double surfaceLow;  ///< metres; nothing but skirts is lower, the bin's margin apart
 };
 
-/// Of the grid's mesh as its float vertices draw it.
-/// Guarantee: the bin holds every point of every triangle; the margin covers vertices at the axis, which have no
-/// longitude.
-[[nodiscard]] MeshExtent extentOf(const osgAnalyticBin::TerrainGrid& grid, const std::vector<std::uint16_t>& triangles,
-                                  const TileId& tile);
+/// Of the grid's mesh as its float vertices draw it. Guarantee: see MeshBounds; the margin covers vertices at the axis.
+[[nodiscard]] MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& triangles);
 
-}  // namespace osgbindem
+}  // namespace osgAnalyticBin::tiles

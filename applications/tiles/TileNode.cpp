@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <glm/geometric.hpp>
+#include <osg/LightModel>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
@@ -13,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace osgbindem {
+namespace osgAnalyticBin::tiles {
 
 namespace {
 
@@ -65,6 +66,11 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const osgAnalyticBin::core::Ell
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     root->getOrCreateStateSet()->setAttributeAndModes(material);
+    // With OSG's light, which stands with the eye: bright enough at grazing angles, and no land too bright from above.
+    constexpr float kAmbient = 0.5F;
+    const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
+    light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
+    root->getOrCreateStateSet()->setAttribute(light);
     return root;
 }
 
@@ -114,4 +120,4 @@ osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, cons
     return node;
 }
 
-}  // namespace osgbindem
+}  // namespace osgAnalyticBin::tiles

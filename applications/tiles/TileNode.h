@@ -15,7 +15,7 @@
 
 #include <string>
 
-namespace osgbindem {
+namespace osgAnalyticBin::tiles {
 
 /// What the grid of a tile is apart from its heights: its size, and its place among the posts of its level.
 [[nodiscard]] osgAnalyticBin::TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile);
@@ -51,4 +51,4 @@ struct TileFacts {
 /// A PagedLOD, or a Group for a tile without children, that carries the bin.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, const TileFacts& facts);
 
-}  // namespace osgbindem
+}  // namespace osgAnalyticBin::tiles

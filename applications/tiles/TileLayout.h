@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "RasterGrid.h"
+#include "Degrees.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace osgbindem {
+namespace osgAnalyticBin::tiles {
 
 /// The edges of a tile, in the order in which everything that has four of them keeps them.
 enum class Edge : std::size_t { South, North, West, East };
@@ -118,4 +118,4 @@ private:
     osgAnalyticBin::core::Ellipsoid _ellipsoid;
 };
 
-}  // namespace osgbindem
+}  // namespace osgAnalyticBin::tiles

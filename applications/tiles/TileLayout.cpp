@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace osgbindem {
+namespace osgAnalyticBin::tiles {
 
 namespace {
 
@@ -149,4 +149,4 @@ double TileLayout::quantum(int level) const noexcept {
     return std::max(std::ldexp(1.0, exponent), kFinest);
 }
 
-}  // namespace osgbindem
+}  // namespace osgAnalyticBin::tiles
