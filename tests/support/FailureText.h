@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::test {
 
@@ -20,6 +21,14 @@ std::string failureOf(const Call& call) {
         return failure.what();
     }
     return "no failure";
+}
+
+/// The program has ended with this code and has said one line: its name, and `what` somewhere in it.
+inline void expectOneLine(const Outcome& outcome, const std::string& program, const std::string& what, int code = 1) {
+    EXPECT_EQ(outcome.code, code) << outcome.text;
+    EXPECT_EQ(outcome.text.rfind(program + ": ", 0), 0U) << outcome.text;
+    EXPECT_NE(outcome.text.find(what), std::string::npos) << what << " is not in " << outcome.text;
+    EXPECT_EQ(outcome.text.find('\n'), outcome.text.size() - 1) << outcome.text;
 }
 
 }  // namespace osgAnalyticBin::test

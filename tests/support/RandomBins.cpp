@@ -69,29 +69,9 @@ glm::dvec3 interestingDirection(Random& random, const BinOracle& bin) {
 }  // namespace
 
 const char* nameOf(BinKind kind) noexcept {
-    switch (kind) {
-        case BinKind::Tile:
-            return "tile";
-        case BinKind::Polar:
-            return "polar";
-        case BinKind::DateLine:
-            return "date line";
-        case BinKind::Equator:
-            return "equator";
-        case BinKind::Sliver:
-            return "sliver";
-        case BinKind::Tiny:
-            return "tiny";
-        case BinKind::Point:
-            return "point";
-        case BinKind::NearAxis:
-            return "near axis";
-        case BinKind::Wide:
-            return "wide";
-        case BinKind::WholeGlobe:
-            return "whole globe";
-    }
-    return "";
+    constexpr const char* kNames[] = {"tile", "polar", "date line", "equator", "sliver",
+                                      "tiny", "point", "near axis", "wide",    "whole globe"};
+    return kNames[static_cast<std::size_t>(kind)];
 }
 
 Ellipsoid wgs84() noexcept {

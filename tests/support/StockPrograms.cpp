@@ -21,6 +21,23 @@ std::string quoted(const std::string& text) {
     return "'" + text + "'";
 }
 
+std::string quoted(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
+
+std::string onFullDisk(const std::string& command, int blocks) {
+    return "sh -c \"ulimit -f " + std::to_string(blocks) + "; exec " + command + '"';
+}
+
+std::string interrupted(const std::string& command, const std::string& condition, const std::string& meanwhile) {
+    // In the background a shell without job control has SIGINT ignored; our programs take it all the same.
+    return "sh -c \"" + command + " & until " + condition +
+           "; do kill -0 \\$! 2>/dev/null || break; sleep 0.01; done; " + meanwhile +
+           "; kill -INT \\$! 2>/dev/null; wait \\$!\"";
+}
+
 Outcome runStock(const std::string& command, Modules modules, const std::string& environment) {
     std::string line = "env -u OSG_LIBRARY_PATH -u LD_LIBRARY_PATH " + environment;
     if (modules == Modules::Present) {

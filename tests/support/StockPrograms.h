@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -20,9 +21,20 @@ struct Outcome {
 
 /// For the shell.
 [[nodiscard]] std::string quoted(const std::string& text);
+/// A command line: each word quoted.
+[[nodiscard]] std::string quoted(const std::vector<std::string>& words);
+
+/// The command with so many blocks of 512 bytes as the most that a file may have, which stands in for a full disk.
+/// Requires: words in single quotes alone.
+[[nodiscard]] std::string onFullDisk(const std::string& command, int blocks);
 
 /// Runs a shell command with a clean plugin path. `environment`: more assignments, parted by blanks.
 [[nodiscard]] Outcome runStock(const std::string& command, Modules modules, const std::string& environment = {});
+
+/// A command that runs `command` in the background, waits until `condition`, a command itself, succeeds or the program
+/// ends, then runs `meanwhile` and presses Ctrl-C. Its exit code is that of `command`.
+[[nodiscard]] std::string interrupted(const std::string& command, const std::string& condition,
+                                      const std::string& meanwhile = ":");
 
 /// Whether xvfb-run is installed, which makes virtual displays.
 [[nodiscard]] bool hasDisplay();
