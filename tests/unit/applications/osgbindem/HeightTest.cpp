@@ -4,74 +4,57 @@
 // Heights of databases of rasters in any reference system, side by side and over others. The oracle at a post of the
 // finest tiles is the raster's own bilinear value, at the pixels where GDAL's transformation of the post falls.
 
-#include "DatabaseCheck.h"
-#include "Program.h"
+#include "RasterTest.h"
 #include "TileLayout.h"
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
-#include <gdal_priv.h>
-#include <gdal_utils.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <random>
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// A raster file as GDAL has it.
 class Truth {
 public:
-    explicit Truth(const std::string& path) : _dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER)) {
+    explicit Truth(const std::string& path) : _file(path), _heights(OpenRaster::read(_file.band())) {
         CPLStringList words;
         words.SetNameValue("DST_SRS", "EPSG:4326");
-        _transformer.reset(
-            GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(_dataset.get()), nullptr, words.List()));
-        _heights.resize(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()));
-        GDALRasterBand& band = *_dataset->GetRasterBand(1);
-        EXPECT_EQ(band.RasterIO(GF_Read, 0, 0, width(), height(), _heights.data(), width(), height(), GDT_Float64, 0, 0,
-                                nullptr),
-                  CE_None);
+        GDALDatasetH dataset = GDALDataset::ToHandle(_file.operator->());
+        _transformer.reset(GDALCreateGenImgProjTransformer2(dataset, nullptr, words.List()));
     }
 
-    [[nodiscard]] int width() const { return _dataset->GetRasterXSize(); }
-    [[nodiscard]] int height() const { return _dataset->GetRasterYSize(); }
+    [[nodiscard]] int width() const { return _file->GetRasterXSize(); }
+    [[nodiscard]] int height() const { return _file->GetRasterYSize(); }
 
     /// Longitude and latitude of a pixel position.
     [[nodiscard]] std::array<double, 2> degrees(double x, double y) const { return transformed(false, x, y); }
 
     /// Metres; NaN outside of the middles of the outer pixels, and beside missing ones.
     [[nodiscard]] double at(double latitude, double longitude) const {
-        for (const double turn : {0.0, 360.0, -360.0}) {
-            const auto [x, y] = transformed(true, longitude + turn, latitude);
-            if (isWithin(x, y)) return bilinear(x - 0.5, y - 0.5);
-        }
-        return std::nan("");
+        const auto place = pixel(latitude, longitude, -0.5);
+        return place ? bilinear((*place)[0] - 0.5, (*place)[1] - 0.5) : std::nan("");
     }
     /// Whether the position is in the raster or next to it.
     [[nodiscard]] bool isNear(double latitude, double longitude) const {
-        for (const double turn : {0.0, 360.0, -360.0}) {
-            const auto [x, y] = transformed(true, longitude + turn, latitude);
-            if (x > -2.0 && x < width() + 2.0 && y > -2.0 && y < height() + 2.0) return true;
-        }
-        return false;
+        return pixel(latitude, longitude, 2.0).has_value();
     }
 
 private:
     struct Free {
         void operator()(void* transformer) const { GDALDestroyGenImgProjTransformer(transformer); }
     };
-    struct Close {
-        void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
-    };
 
-    [[nodiscard]] bool isWithin(double x, double y) const {
-        return x >= 0.5 && x <= width() - 0.5 && y >= 0.5 && y <= height() - 0.5;
+    /// Where the position is in the raster, or beside it by less than `room` pixels.
+    [[nodiscard]] std::optional<std::array<double, 2>> pixel(double latitude, double longitude, double room) const {
+        for (const double turn : {0.0, 360.0, -360.0}) {
+            const auto [x, y] = transformed(true, longitude + turn, latitude);
+            if (x >= -room && x <= width() + room && y >= -room && y <= height() + room) return std::array{x, y};
+        }
+        return std::nullopt;
     }
     [[nodiscard]] std::array<double, 2> transformed(bool isInverse, double x, double y) const {
         double z = 0.0;
@@ -93,43 +76,18 @@ private:
                v * ((1 - u) * post(column, row + 1) + u * post(column + 1, row + 1));
     }
 
-    std::unique_ptr<GDALDataset, Close> _dataset;
-    std::unique_ptr<void, Free> _transformer;
+    OpenRaster _file;
     std::vector<double> _heights;
+    std::unique_ptr<void, Free> _transformer;
 };
 
-class Heights : public testing::Test {
+class Heights : public RasterTest {
 protected:
-    void SetUp() override { GDALAllRegister(); }
-
-    std::string file(const std::string& name) const { return _folder.file(name); }
-
-    /// Writes a raster; returns its file.
-    std::string raster(const std::string& name, const std::string& reference, double x, double y, double spacing,
-                       int columns, int rows, const TestRaster::Height& height) const {
-        TestRaster raster(x, y, spacing, spacing, columns, rows, height);
-        raster.setReference(reference);
-        raster.write(file(name));
-        return file(name);
-    }
-
-    /// GDAL's mosaic of rasters; returns its file.
-    std::string mosaicOf(const Words& rasters) const {
-        std::vector<const char*> names;
-        for (const std::string& path : rasters) names.push_back(path.c_str());
-        GDALClose(GDALBuildVRT(file("mosaic.vrt").c_str(), static_cast<int>(names.size()), nullptr, names.data(),
-                               nullptr, nullptr));
-        return file("mosaic.vrt");
-    }
-
     /// Compares 1000 posts of the finest tiles, anywhere in the rasters, with the finest raster that has data there.
     /// `rasters`: finest first. `sources`: what the database is built from, in place of them.
     void expectHeights(const Words& rasters, int fewest = 900, const Words& sources = {}) const {
-        Words words = sources.empty() ? rasters : sources;
-        words.insert(words.end(), region.begin(), region.end());
-        words.insert(words.end(), {"--blend", "0", "--overwrite", "-o", file("earth.osgb")});
-        build(words);
-        const LoadedDatabase database = loadDatabase(file("earth.osgb"));
+        const LoadedDatabase database =
+            databaseOf(joined(joined(sources.empty() ? rasters : sources, region), {"--blend", "0"}));
         std::vector<std::unique_ptr<Truth>> truths;
         for (const std::string& path : rasters) truths.push_back(std::make_unique<Truth>(path));
         std::mt19937 random(1);
@@ -175,8 +133,6 @@ private:
         EXPECT_NEAR(found, expected, most) << postLatitude << ' ' << postLongitude << " level " << tile.level;
         return true;
     }
-
-    const TempFolder _folder;
 };
 
 /// Hills some kilometres apart, at places in metres.
@@ -188,14 +144,13 @@ TEST_F(Heights, TilesOfAMapProjectionSideBySideOverAGlobe) {
     region = {"-te", "17.9", "59.8", "18.4", "60.2"};
     Words rasters;
     for (int i = 0; i < 9; ++i) {
-        rasters.push_back(raster("tile" + std::to_string(i) + ".tif", "EPSG:25833", 670050.0 + 4000.0 * (i % 3),
-                                 6650050.0 + 4000.0 * (i / 3), 100.0, 40, 40, hillsOfMetres));
+        TestRaster tile(670050.0 + 4000.0 * (i % 3), 6650050.0 + 4000.0 * (i / 3), 100.0, 40, hillsOfMetres);
+        rasters.push_back(saved(tile.in("EPSG:25833")));
     }
-    const std::string whole = mosaicOf(rasters);
+    const std::string whole = writeMosaic(file("mosaic.vrt"), rasters);
     expectHeights({whole}, 900, rasters);
     region.clear();
-    TestRaster::globe(0.5, [](double, double) { return 0.0; }).write(file("globe.tif"));
-    rasters.push_back(file("globe.tif"));
+    rasters.push_back(savedGlobe(0.5, flat(0.0)));
     expectHeights({whole, rasters.back()}, 900, rasters);
 }
 
@@ -203,10 +158,10 @@ TEST_F(Heights, TilesOfTwoZonesAndOfANationalGridSideBySide) {
     region = {"-te", "11.7", "50.3", "12.3", "50.7"};
     Words rasters;
     // Both sides of 12 degrees east; what lies in both is in the first one.
-    rasters.push_back(raster("west.tif", "EPSG:25832", 700050.0, 5600050.0, 100.0, 120, 100, hillsOfMetres));
-    rasters.push_back(raster("east.tif", "EPSG:25833", 288050.0, 5600050.0, 100.0, 120, 100, hillsOfMetres));
+    for (const auto& [reference, west] : {std::pair("EPSG:25832", 700050.0), {"EPSG:25833", 288050.0}})
+        rasters.push_back(saved(TestRaster(west, 5600050.0, 100.0, 100.0, 120, 100, hillsOfMetres).in(reference)));
     expectHeights(rasters, 850);
-    rasters.push_back(raster("grid.tif", "EPSG:31468", 4498050.0, 5590050.0, 100.0, 100, 100, hillsOfMetres));
+    rasters.push_back(saved(TestRaster(4498050.0, 5590050.0, 100.0, 100, hillsOfMetres).in("EPSG:31468")));
     expectHeights(rasters, 800);
 }
 
@@ -215,67 +170,75 @@ TEST_F(Heights, TilesOfDegreesWithAnEmptyColumn) {
     Words rasters;
     for (int i = 0; i < 9; ++i) {
         const double west = 10.0 + i % 3;
-        rasters.push_back(raster("tile" + std::to_string(i) + ".tif", "EPSG:4326", west + 0.005, 50.995 + i / 3, 0.01,
-                                 100, 100, [=](double latitude, double longitude) {
-                                     return longitude > west + 0.99 ? std::nan("") : hills(latitude, longitude);
-                                 }));
+        rasters.push_back(saved(TestRaster(west + 0.005, 50.995 + i / 3, 0.01, 100, [=](double latitude, double east) {
+            return east > west + 0.99 ? std::nan("") : hills(latitude, east);
+        })));
     }
     expectHeights(rasters, 850);
 }
 
-TEST_F(Heights, ARasterThatHoldsThePole) {
-    const std::string polar =
-        raster("polar.tif", "EPSG:3413", -297500.0, 297500.0, 5000.0, 120, 120,
-               [](double y, double x) { return 1000.0 + 900.0 * std::sin(x / 2e4) * std::sin(y / 2e4); });
-    expectHeights({polar});
-}
-
 TEST_F(Heights, ARasterAcrossTheDateLine) {
     const auto plateau = [](double y, double x) { return 2000.0 + hillsOfMetres(y / 10.0, x / 10.0); };
-    const std::string aleutians = raster("aleutians.tif", "EPSG:32660", 600500.0, 6099500.0, 1000.0, 200, 200, plateau);
+    const std::string aleutians = saved(TestRaster(600500.0, 6099500.0, 1000.0, 200, plateau).in("EPSG:32660"));
     expectHeights({aleutians});
-    TestRaster::globe(0.5, [](double, double) { return 100.0; }).write(file("globe.tif"));
-    expectHeights({aleutians, file("globe.tif")}, 800);
-}
-
-TEST_F(Heights, GeographicSystemsThatAreNotDegreesOfWgs84) {
-    expectHeights({raster("paris.tif", "EPSG:4807", 0.05, 53.95, 0.05, 100, 80, hills)});
-    expectHeights({raster("tokyo.tif", "EPSG:4301", 139.0, 36.0, 0.001, 100, 100, hills)});
-    expectHeights({raster("rotated.tif",
-                          "+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +datum=WGS84 "
-                          "+to_meter=0.0174532925199433 +no_defs",
-                          -9.95, 5.95, 0.1, 60, 60, hills)});
-}
-
-TEST_F(Heights, MapsWhosePixelsDifferInSize) {
-    const auto waves = [](double y, double x) { return 1000.0 + 800.0 * std::sin(x / 4e4) * std::cos(y / 4e4); };
-    expectHeights({raster("cone.tif", "EPSG:3034", 2.502e6, 3.998e6, 4000.0, 300, 300, waves)});
-    const auto wide = [](double y, double x) { return 1000.0 + 800.0 * std::sin(x / 6e5) * std::cos(y / 6e5); };
-    expectHeights({raster("mercator.tif", "EPSG:3857", -1.995e7, 1.995e7, 1e5, 400, 400, wide)}, 850);
-    // Half of what it shows is empty, and degrees change fast along its border.
-    expectHeights(
-        {raster("disc.tif", "+proj=ortho +lat_0=40 +lon_0=170 +datum=WGS84", -6.35e6, 6.35e6, 1e5, 128, 128, wide)},
-        700);
+    expectHeights({aleutians, savedGlobe(0.5, flat(100.0))}, 800);
 }
 
 TEST_F(Heights, ATurnedRaster) {
-    const std::string turned = raster("turned.tif", "EPSG:25832", 700050.0, 5600050.0, 100.0, 100, 100, hillsOfMetres);
-    GDALDataset* dataset = GDALDataset::Open(turned.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);
+    const std::string turned = saved(TestRaster(700050.0, 5600050.0, 100.0, 100, hillsOfMetres).in("EPSG:25832"));
     double transform[6] = {700000.0, 86.6, 50.0, 5600100.0, 50.0, -86.6};
-    dataset->SetGeoTransform(transform);
-    GDALClose(GDALDataset::ToHandle(dataset));
+    OpenRaster(turned, GDAL_OF_UPDATE)->SetGeoTransform(transform);
     expectHeights({turned});
 }
 
-TEST_F(Heights, LatitudesOfASphere) {
+TEST_F(Heights, RastersOfDegrees) {
+    TestRaster other(-100.0, 40.0, 0.1, 0.1, 80, 60, hills);
     expectHeights(
-        {raster("sphere.tif", "+proj=longlat +R=6371007 +towgs84=0,0,0 +no_defs", -179.5, 89.5, 1.0, 360, 180, hills)});
+        {saved(TestRaster(10.0, 50.0, 0.03, 80, hills)), saved(other.in("EPSG:4269")), savedGlobe(1.0, hills)});
 }
 
-TEST_F(Heights, RastersOfDegrees) {
-    TestRaster::globe(1.0, hills).write(file("globe.tif"));
-    expectHeights({raster("fine.tif", "EPSG:4326", 10.0, 50.0, 0.03, 80, 80, hills),
-                   raster("other.tif", "EPSG:4269", -100.0, 40.0, 0.1, 80, 60, hills), file("globe.tif")});
+/// Hills of so many metres from one to the next, divided by 2 pi.
+TestRaster::Height wavesOf(double metres) {
+    return [metres](double y, double x) { return 1000.0 + 800.0 * std::sin(x / metres) * std::cos(y / metres); };
 }
+
+struct OneRaster {
+    const char* name;
+    const char* reference;
+    double x, y, spacing;
+    int columns, rows;
+    TestRaster::Height height;
+    int fewest = 900;
+};
+
+void PrintTo(const OneRaster& raster, std::ostream* out) {
+    *out << raster.name;
+}
+
+// Geographic systems that are not degrees of WGS 84, maps, and maps whose pixels differ in size.
+const OneRaster kRasters[] = {
+    {"Pole", "EPSG:3413", -297500.0, 297500.0, 5000.0, 120, 120, wavesOf(2e4)},
+    {"Paris", "EPSG:4807", 0.05, 53.95, 0.05, 100, 80, hills},
+    {"Tokyo", "EPSG:4301", 139.0, 36.0, 0.001, 100, 100, hills},
+    {"TurnedPole",
+     "+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +datum=WGS84 "
+     "+to_meter=0.0174532925199433 +no_defs",
+     -9.95, 5.95, 0.1, 60, 60, hills},
+    {"Sphere", "+proj=longlat +R=6371007 +towgs84=0,0,0 +no_defs", -179.5, 89.5, 1.0, 360, 180, hills},
+    {"Cone", "EPSG:3034", 2.502e6, 3.998e6, 4000.0, 300, 300, wavesOf(4e4)},
+    {"Mercator", "EPSG:3857", -1.995e7, 1.995e7, 1e5, 400, 400, wavesOf(6e5), 850},
+    // Half of what it shows is empty, and degrees change fast along its border.
+    {"Disc", "+proj=ortho +lat_0=40 +lon_0=170 +datum=WGS84", -6.35e6, 6.35e6, 1e5, 128, 128, wavesOf(6e5), 700}};
+
+class HeightsOf : public Heights, public testing::WithParamInterface<OneRaster> {};
+
+TEST_P(HeightsOf, ARasterInThisSystem) {
+    const OneRaster& r = GetParam();
+    TestRaster raster(r.x, r.y, r.spacing, r.spacing, r.columns, r.rows, r.height);
+    expectHeights({saved(raster.in(r.reference))}, r.fewest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, HeightsOf, testing::ValuesIn(kRasters),
+                         [](const auto& raster) { return std::string(raster.param.name); });
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "DatabaseWalk.h"
+#include "LoadedDatabase.h"
 
 #include <array>
 #include <functional>
@@ -18,20 +18,19 @@ enum class Hole { Alpha, Mask, Nodata, Palette };
 
 /// An image, square degree by square degree: `pixels` by `pixels` from the north-west corner on.
 struct TestImage {
-    double west = 0.0;
-    double north = 0.0;
-    double spacingDeg = 1.0;
-    int pixels = 1;
+    TestImage(double westDeg, double northDeg, double pixelDeg, int side, const Colour& colour);
+
+    /// Round the globe: twice as many columns as rows.
+    [[nodiscard]] static TestImage globe(double spacingDeg, const Colour& colour);
+
+    /// Writes a file. Returns: its path.
+    std::string write(const std::string& path) const;
+
+    double west, north, spacingDeg;
+    int pixels;
     /// nullopt: a hole. With a palette there is one colour.
     std::function<std::optional<Colour>(double latitudeDeg, double longitudeDeg)> colourAt;
     Hole hole = Hole::Alpha;
-
-    /// Round the globe: 2 `rows` by `rows` pixels.
-    [[nodiscard]] static TestImage globe(double spacingDeg, const Colour& colour);
-    [[nodiscard]] static TestImage square(double west, double north, double spacingDeg, int pixels,
-                                          const Colour& colour);
-
-    void write(const std::string& path) const;
 };
 
 /// The image of a tile's texture; nullptr without one.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <gdal_priv.h>
+
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -25,6 +27,32 @@ struct Range {
     }
 };
 
+/// A raster file that is open with GDAL until this is destroyed.
+class OpenRaster {
+public:
+    struct Shape {
+        int width, height, bands;
+    };
+
+    explicit OpenRaster(const std::string& path, unsigned int access = GDAL_OF_READONLY);
+
+    /// Makes a GeoTIFF. `west`, `north`: of its corner. `option`: for GDAL, as NAME=VALUE.
+    OpenRaster(const std::string& path, const Shape& shape, GDALDataType type, double west, double north, double dx,
+               double dy, const std::string& reference = "EPSG:4326", const char* option = nullptr);
+    OpenRaster(const OpenRaster&) = delete;
+    OpenRaster& operator=(const OpenRaster&) = delete;
+    ~OpenRaster();
+
+    GDALDataset* operator->() const { return _dataset; }
+    [[nodiscard]] GDALRasterBand& band(int number = 1) const { return *_dataset->GetRasterBand(number); }
+
+    [[nodiscard]] static std::vector<double> read(GDALRasterBand& band);
+    static void write(GDALRasterBand& band, std::vector<double> numbers);
+
+private:
+    GDALDataset* _dataset;
+};
+
 /// A grid of heights kept in memory, as a file for the program and as the truth about it.
 class TestRaster {
 public:
@@ -34,21 +62,26 @@ public:
     TestRaster(double firstLongitude, double firstLatitude, double dx, double dy, int width, int height,
                const Height& heightAt);
 
+    /// As many posts in both directions.
+    TestRaster(double firstLongitude, double firstLatitude, double spacing, int posts, const Height& heightAt)
+        : TestRaster(firstLongitude, firstLatitude, spacing, spacing, posts, posts, heightAt) {}
+
     /// Reads a file with GDAL.
     explicit TestRaster(const std::string& path);
 
     /// A raster round the globe with posts on the poles.
     static TestRaster globe(double spacingDeg, const Height& heightAt);
 
-    void setNodata(double nodata) { _nodata = nodata; }
-    void setReference(const std::string& reference) { _reference = reference; }
-    void write(const std::string& path) const;
+    /// What a file has in place of missing heights; without it, NaN.
+    TestRaster& withNodata(double nodata);
+    /// Another reference system than WGS 84; none where it is empty.
+    TestRaster& in(const std::string& reference);
+
+    /// Writes a file. Returns: its path.
+    std::string write(const std::string& path) const;
 
     /// The heights of all posts not farther than one pixel from the rectangle; longitudes modulo 360.
     [[nodiscard]] Range range(const Rect& rect) const;
-
-    /// Bilinear between posts, longitudes modulo 360; NaN outside.
-    [[nodiscard]] double height(double latitudeDeg, double longitudeDeg) const;
 
 private:
     [[nodiscard]] double at(int column, int row) const {
@@ -65,3 +98,9 @@ private:
 
 /// Hills that differ everywhere.
 [[nodiscard]] double hills(double latitudeDeg, double longitudeDeg);
+
+/// One height everywhere.
+[[nodiscard]] TestRaster::Height flat(double metres);
+
+/// A virtual raster of files that lie side by side. Returns: its path.
+std::string writeMosaic(const std::string& path, const std::vector<std::string>& files);

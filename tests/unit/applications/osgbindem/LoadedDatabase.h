@@ -12,7 +12,6 @@
 #include <osg/Geometry>
 #include <osg/PagedLOD>
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,17 +25,21 @@ struct LoadedTile {
     osg::ref_ptr<osg::Geometry> geometry;
     osgAnalyticBin::AnalyticBin bin;
     int cells = 0;
-    /// In ECEF; the surface row by row from the south-west, then the skirts.
+    /// In ECEF; the surface row by row from the south-west, then the skirts: south, north, west, east.
     std::vector<glm::dvec3> vertices;
     std::vector<LoadedTile> children;
 
     [[nodiscard]] Rect rect() const;
     [[nodiscard]] osg::PagedLOD* lod() const { return dynamic_cast<osg::PagedLOD*>(node.get()); }
+    [[nodiscard]] const osgAnalyticBin::core::Interval& altitude() const { return bin.bin().altitude(); }
     [[nodiscard]] const glm::dvec3& post(int column, int row) const {
         return vertices[static_cast<std::size_t>(row * (cells + 1) + column)];
     }
+    /// The lower end of the western skirt below a post.
+    [[nodiscard]] const glm::dvec3& westHem(int row) const {
+        return vertices[surfaceCount() + static_cast<std::size_t>(2 * (cells + 1) + row)];
+    }
     [[nodiscard]] std::size_t surfaceCount() const { return static_cast<std::size_t>((cells + 1) * (cells + 1)); }
-    [[nodiscard]] bool touchesPole() const { return y == 0 || y == (8 << level) - 1; }
 };
 
 struct LoadedDatabase {
@@ -56,3 +59,16 @@ struct LoadedDatabase {
 
 /// Loads all levels, by the file names that the PagedLODs would ask the pager for.
 [[nodiscard]] LoadedDatabase loadDatabase(const std::string& rootFile);
+
+/// The heights that the bin of a tile has to hold.
+using SourceRange = std::function<Range(const Rect&)>;
+
+/// Everything that holds for every database; failures are reported as GoogleTest failures.
+void checkDatabase(const LoadedDatabase& database, const SourceRange& source);
+void checkDatabase(const LoadedDatabase& database, const TestRaster& source);
+
+/// Tiles of one level draw their common posts at the same points, round the globe; children draw their parent's posts.
+void checkSharedPosts(const LoadedDatabase& database);
+
+/// The nodes are those that a database is made of, and OpenSceneGraph's own bounds hold.
+void checkNodes(const LoadedDatabase& database);
