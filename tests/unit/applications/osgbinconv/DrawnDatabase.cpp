@@ -14,18 +14,17 @@
 #include <TileFixture.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
-// Skirts stand upright, or nearly so where coarse meshes lean.
-constexpr double kSteepest = 0.25;
 constexpr std::size_t kMostTriangles = 400;
 
+// Skirts stand upright, or nearly so where coarse meshes lean.
 bool isUpright(const EcefTriangle& t) {
+    constexpr double kSteepest = 0.25;
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double length = glm::length(normal);
     return length == 0.0 || std::abs(glm::dot(normal / length, glm::normalize(t[0]))) < kSteepest;
@@ -43,21 +42,16 @@ std::vector<EcefTriangle> surfaceOf(const FoundTile& tile) {
     return result;
 }
 
-// Those with two corners that are on the edge of the tile: every eighth of a millionth of its size is near enough.
-std::vector<EcefTriangle> alongEdges(const std::vector<EcefTriangle>& triangles, const core::GeodeticBin& bin) {
+// Whether a corner is on the edge of the tile; a hundred-thousandth of its size is near enough.
+bool isAlongEdge(const EcefTriangle& triangle, const core::GeodeticBin& bin) {
     const double near = 1e-5 * std::max(bin.latitude().width(), bin.longitude().width());
-    const auto isOnEdge = [&](const glm::dvec3& point) {
-        const core::Geodetic g = ellipsoidOfTests().toGeodetic(point);
-        return std::abs(g.latitude - bin.latitude().lower) < near ||
-               std::abs(g.latitude - bin.latitude().upper) < near ||
-               std::abs(g.longitude - bin.longitude().lower) < near ||
-               std::abs(g.longitude - bin.longitude().upper) < near;
+    const auto isEnd = [near](double angle, const core::Interval& range) {
+        return std::abs(angle - range.lower) < near || std::abs(angle - range.upper) < near;
     };
-    std::vector<EcefTriangle> result;
-    for (const EcefTriangle& t : triangles) {
-        if (isOnEdge(t[0]) || isOnEdge(t[1]) || isOnEdge(t[2])) result.push_back(t);
-    }
-    return result;
+    return std::any_of(triangle.begin(), triangle.end(), [&](const glm::dvec3& corner) {
+        const core::Geodetic g = ellipsoidOfTests().toGeodetic(corner);
+        return isEnd(g.latitude, bin.latitude()) || isEnd(g.longitude, bin.longitude());
+    });
 }
 
 DrawnTile drawn(const FoundTile& tile) {
@@ -65,8 +59,6 @@ DrawnTile drawn(const FoundTile& tile) {
     result.file = tile.frame.file;
     result.ordinal = tile.ordinal;
     if (hasStoredBin(*tile.node)) result.storedBin = storedBin(*tile.node);
-    result.low = std::numeric_limits<double>::infinity();
-    result.high = -result.low;
     AnalyticBin bin;
     for (const auto& mesh : tile.meshes) {
         const TileSurface surface = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef);
@@ -77,13 +69,15 @@ DrawnTile drawn(const FoundTile& tile) {
     result.high = bin.bin().altitude().upper;
     result.fingerprint = surfaceFingerprint(*tile.meshes.front(), tile.frame.localToEcef);
     const std::vector<EcefTriangle> all = surfaceOf(tile);
-    std::vector<EcefTriangle> some;
     const std::size_t step = all.size() / kMostTriangles + 1;
-    for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
-    result.samples = samplesOf(some, 2);
-    for (const glm::dvec3& point : samplesOf(alongEdges(all, bin.bin()), 2)) {
-        result.edgeSamples.push_back(ellipsoidOfTests().toGeodetic(point));
+    std::vector<EcefTriangle> some, alongEdges;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i % step == 0) some.push_back(all[i]);
+        if (isAlongEdge(all[i], bin.bin())) alongEdges.push_back(all[i]);
     }
+    result.samples = samplesOf(some, 2);
+    for (const glm::dvec3& point : samplesOf(alongEdges, 2))
+        result.edgeSamples.push_back(ellipsoidOfTests().toGeodetic(point));
     return result;
 }
 

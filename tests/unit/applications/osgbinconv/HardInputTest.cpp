@@ -4,7 +4,7 @@
 // osgbinconv reads unusual databases, and answers what it cannot do with one clear line.
 
 #include "BinconvRuns.h"
-#include "SmallDatabase.h"
+#include "Databases.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 
@@ -12,7 +12,6 @@
 #include <osg/PagedLOD>
 
 #include <filesystem>
-#include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
@@ -20,32 +19,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(SmallRun, NamesThatLeaveTheFolderAreRefused) {
+class HardInput : public ::testing::Test {
+protected:
+    void expectNoIndex() const {
+        EXPECT_FALSE(fs::exists(root + ".bins"));
+        EXPECT_FALSE(fs::exists(root + ".bins.part"));
+    }
+    // A run that succeeds, and warns once.
+    [[nodiscard]] Outcome indexWithWarning(const std::string& what) const {
+        Outcome outcome = runIndex(root);
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
+        EXPECT_EQ(outcome.linesWith(what), 1) << outcome.text;
+        return outcome;
+    }
+
+    const TemporaryFolder folder;
+    const std::string root = folder / "db/earth.osgb";
+};
+
+TEST_F(HardInput, NamesThatLeaveTheFolderAreRefused) {
+    writeFile(folder / "outside.osgb", *makeSmallTile(""));
+    const std::string copies = folder.makeFolder("copy");
     for (const char* name :
          {"../outside.osgb", "a/../../outside.osgb", "..\\outside.osgb", "..", "/etc/outside.osgb",
           "//etc/outside.osgb", "http://host/outside.osgb", "file:///etc/outside.osgb", "C:/outside.osgb"}) {
-        const TemporaryFolder folder;
-        writeSmallFile(folder / "db/earth.osgb", *makeSmallTile(name), true);
-        writeSmallFile(folder / "outside.osgb", *makeSmallTile(""));
-        expectFailure(runIndex(folder / "db/earth.osgb"), "outside of the database's folder");
-        EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins"));
-        EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins.part"));
-        fs::create_directories(folder / "copy");
-        expectFailure(runBinconv("--quiet " + test::quoted(folder / "db/earth.osgb") + ' ' +
-                                 test::quoted(folder / "copy/e.osgb")),
-                      "outside of the database's folder");
-        EXPECT_TRUE(fs::is_empty(folder / "copy"));
+        writeRoot(root, *makeSmallTile(name));
+        expectFailure(runIndex(root), "outside of the database's folder");
+        expectNoIndex();
+        expectFailure(runCopy(root, copies + "/e.osgb"), "outside of the database's folder");
+        EXPECT_TRUE(fs::is_empty(copies));
     }
 }
 
 // Pseudo-loaders would open other files, or change what is read.
-TEST(SmallRun, NamesWithPseudoLoadersAreNoFiles) {
-    const TemporaryFolder folder;
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb.90,0,0.rot"), true);
-    writeSmallFile(folder / "a.osgb", *makeSmallTile(""));
-    const Outcome outcome = runIndex(folder / "earth.osgb");
-    EXPECT_EQ(outcome.code, 0);
-    EXPECT_EQ(outcome.linesWith("missing or broken"), 1) << outcome.text;
+TEST_F(HardInput, NamesWithPseudoLoadersAreNoFiles) {
+    writeRoot(root, *makeSmallTile("a.osgb.90,0,0.rot"));
+    writeFile(folder / "db/a.osgb", *makeSmallTile(""));
+    (void)indexWithWarning("missing or broken");
 }
 
 /// A globe of groups in groups, deeper than OSG could write them with its own stack.
@@ -60,183 +71,153 @@ std::string nestedGroups(int depth) {
     return text;
 }
 
-// As wide and as deep as no database is, and many tiles in one place; `timeout` ends what does not end by itself.
-TEST(SmallRun, HugeFilesEnd) {
 #ifdef __SANITIZE_ADDRESS__
-    constexpr int kWide = 20000, kDeep = 500, kStacked = 500;
+constexpr int kWide = 20000, kDeep = 500, kStacked = 500, kPagedDeep = 500;
 #else
-    constexpr int kWide = 50000, kDeep = 10000, kStacked = 5000;
+constexpr int kWide = 50000, kDeep = 10000, kStacked = 5000, kPagedDeep = 2000;
 #endif
-    const TemporaryFolder folder;
+
+// As wide and as deep as no database is, and many tiles in one place.
+TEST_F(HardInput, HugeFilesEnd) {
     const osg::ref_ptr<osg::Group> wide = new osg::Group;
     for (int i = 0; i < kWide; ++i) wide->addChild(new osg::Group);
     wide->addChild(makeSmallTile(""));
-    writeSmallFile(folder / "wide.osgb", *wide, true);
-    writeBytes(folder / "deep.osgt", nestedGroups(kDeep));
+    writeRoot(folder / "wide.osgb", *wide);
+    (void)folder.write("deep.osgt", nestedGroups(kDeep));
     const osg::ref_ptr<osg::Group> stacked = new osg::Group;
     const osg::ref_ptr<osg::Node> tile = makeSmallTile("a.osgb");
     for (int i = 0; i < kStacked; ++i) stacked->addChild(tile);
-    writeSmallFile(folder / "stacked.osgb", *stacked, true);
-    writeSmallFile(folder / "a.osgb", *makeSmallTile(""));
+    writeRoot(folder / "stacked.osgb", *stacked);
+    writeFile(folder / "a.osgb", *makeSmallTile(""));
     for (const char* name : {"wide.osgb", "deep.osgt", "stacked.osgb"}) {
-        for (const std::string& output : {std::string(), ' ' + test::quoted(folder / "copy.osgb") + " --overwrite"}) {
-            const std::string mode = output.empty() ? "--quiet --index " : "--quiet ";
-            const Outcome outcome = runBinconv(mode + test::quoted(folder / name) + output, "timeout 120 ");
-            EXPECT_NE(outcome.code, 124) << name << " takes too long";
+        for (const Outcome& outcome :
+             {runIndex(folder / name), runCopy(folder / name, folder / "copy.osgb", "--overwrite")})
             EXPECT_LT(outcome.code, 2) << name << ' ' << outcome.text;
-        }
     }
 }
 
 // Each file pages the next one; the last is the widest, and so are all bins above it.
-TEST(SmallRun, FilesMayBePagedDeep) {
-#ifdef __SANITIZE_ADDRESS__
-    constexpr int kDeep = 500;
-#else
-    constexpr int kDeep = 2000;
-#endif
-    const TemporaryFolder folder;
+TEST_F(HardInput, FilesMayBePagedDeep) {
     const auto name = [](int i) { return std::to_string(100000 + i) + ".osgb"; };  // all of one length
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile(name(1)), true);
-    writeSmallFile(folder / name(1), *makeSmallTile(name(2)));
-    const std::string tile = bytesOf(folder / name(1));
+    writeRoot(root, *makeSmallTile(name(1)));
+    writeFile(folder / "db" + ("/" + name(1)), *makeSmallTile(name(2)));
+    const std::string tile = textOfFile(folder / ("db/" + name(1)));
     const std::size_t at = tile.find(name(2));
     ASSERT_NE(at, std::string::npos);
-    for (int i = 2; i < kDeep; ++i) {
-        writeBytes(folder / name(i), std::string(tile).replace(at, name(i).size(), name(i + 1)));
-    }
-    writeSmallFile(folder / name(kDeep), *makeSmallTile("", 10.0));
-    const Outcome outcome = runIndex(folder / "earth.osgb", "timeout 120 ");
-    EXPECT_EQ(outcome.code, 0) << outcome.text;
-    const osg::ref_ptr<BinIndex> index = indexOf(folder / "earth.osgb");
-    EXPECT_EQ(index->tileCount(), static_cast<std::size_t>(kDeep) + 1);
-    for (const std::string& file : {std::string(), name(1), name(kDeep / 2)}) {
+    for (int i = 2; i < kPagedDeep; ++i)
+        (void)folder.write("db/" + name(i), std::string(tile).replace(at, name(i).size(), name(i + 1)));
+    writeFile(folder / ("db/" + name(kPagedDeep)), *makeSmallTile("", 10.0));
+    expectSuccess(runIndex(root));
+    const osg::ref_ptr<BinIndex> index = indexOf(root);
+    EXPECT_EQ(index->tileCount(), static_cast<std::size_t>(kPagedDeep) + 1);
+    for (const std::string& file : {std::string(), name(1), name(kPagedDeep / 2)}) {
         ASSERT_TRUE(index->find(file, 0)) << file;
         EXPECT_GT(index->find(file, 0)->bin.bin().longitude().upper, osg::DegreesToRadians(10.9)) << file;
     }
-    fs::create_directories(folder / "copy");
-    const Outcome copy =
-        runBinconv("--quiet " + test::quoted(folder / "earth.osgb") + ' ' + test::quoted(folder / "copy/earth.osgb"),
-                   "timeout 120 ");
-    EXPECT_EQ(copy.code, 0) << copy.text;
-    EXPECT_TRUE(fs::exists(folder / ("copy/" + name(kDeep))));
+    expectSuccess(runCopy(root, folder.makeFolder("copy") + "/earth.osgb"));
+    EXPECT_TRUE(fs::exists(folder / ("copy/" + name(kPagedDeep))));
 }
 
-TEST(SmallRun, FoldersBesideEachOtherAreFollowed) {
-    const TemporaryFolder folder;
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile("earth_root_L0_X0_Y0/a.osgb"), true);
-    writeSmallFile(folder / "earth_root_L0_X0_Y0/a.osgb", *makeSmallTile("../earth_subtile_L2_X0_Y0/b.osgb"));
-    writeSmallFile(folder / "earth_subtile_L2_X0_Y0/b.osgb", *makeSmallTile(""));
-    EXPECT_EQ(runIndex(folder / "earth.osgb").text, "");
-    const osg::ref_ptr<BinIndex> index = indexOf(folder / "earth.osgb");
+TEST_F(HardInput, FoldersBesideEachOtherAreFollowed) {
+    writeRoot(root, *makeSmallTile("earth_root_L0_X0_Y0/a.osgb"));
+    writeFile(folder / "db/earth_root_L0_X0_Y0/a.osgb", *makeSmallTile("../earth_subtile_L2_X0_Y0/b.osgb"));
+    writeFile(folder / "db/earth_subtile_L2_X0_Y0/b.osgb", *makeSmallTile(""));
+    expectSuccess(runIndex(root));
+    const osg::ref_ptr<BinIndex> index = indexOf(root);
     for (const char* file : {"", "earth_root_L0_X0_Y0/a.osgb", "earth_subtile_L2_X0_Y0/b.osgb"}) {
         ASSERT_TRUE(index->find(file, 0)) << file;
         EXPECT_TRUE(index->find(file, 0)->bin.valid());
     }
 }
 
-TEST(SmallRun, EveryFormatIsRead) {
+TEST_F(HardInput, EveryFormatIsRead) {
     for (const std::string extension : {"ive", "osgb", "osgt", "osgx"}) {
-        const TemporaryFolder folder;
-        const std::string root = folder / ("earth." + extension);
-        writeSmallFile(root, *makeSmallTile("tiles/a." + extension), true);
-        writeSmallFile(folder / ("tiles/a." + extension), *makeSmallTile(""));
-        EXPECT_EQ(runIndex(root).text, "") << extension;
-        const osg::ref_ptr<BinIndex> index = indexOf(root);
+        const std::string earth = folder / ("earth." + extension);
+        writeRoot(earth, *makeSmallTile("tiles/a." + extension));
+        writeFile(folder / ("tiles/a." + extension), *makeSmallTile(""));
+        expectSuccess(runIndex(earth));
+        const osg::ref_ptr<BinIndex> index = indexOf(earth);
         EXPECT_TRUE(index->find("tiles/a." + extension, 0)) << extension;
         EXPECT_LT(index->find("", 0)->bin.bin().altitude().width(), 200.0) << extension;
     }
 }
 
-TEST(SmallRun, APathToAnotherFolderInAFileIsRefused) {
-    const TemporaryFolder folder;
+TEST_F(HardInput, APathToAnotherFolderInAFileIsRefused) {
     const osg::ref_ptr<osg::Node> tile = makeSmallTile("a.osgb");
     dynamic_cast<osg::PagedLOD&>(*tile).setDatabasePath(folder / "elsewhere/");
-    writeSmallFile(folder / "db/earth.osgb", *tile, true);
-    writeSmallFile(folder / "db/a.osgb", *makeSmallTile(""));
-    EXPECT_EQ(runIndex(folder / "db/earth.osgb").text, "");  // nothing is there
-    writeSmallFile(folder / "elsewhere/a.osgb", *makeSmallTile(""));
-    expectFailure(runIndex(folder / "db/earth.osgb"), "elsewhere");
+    writeRoot(root, *tile);
+    writeFile(folder / "db/a.osgb", *makeSmallTile(""));
+    expectSuccess(runIndex(root));  // nothing is there
+    writeFile(folder / "elsewhere/a.osgb", *makeSmallTile(""));
+    expectFailure(runIndex(root), "elsewhere");
 }
 
-TEST(SmallRun, CyclesAreRefused) {
-    const TemporaryFolder folder;
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a/a.osgb"), true);
-    writeSmallFile(folder / "a/a.osgb", *makeSmallTile("b.osgb"));
-    writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../a/a.osgb"));
-    expectFailure(runIndex(folder / "earth.osgb"), "paged below itself");
-    writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../earth.osgb"));
-    expectFailure(runIndex(folder / "earth.osgb"), "paged below itself");
-    EXPECT_FALSE(fs::exists(folder / "earth.osgb.bins"));
+TEST_F(HardInput, CyclesAreRefused) {
+    writeRoot(root, *makeSmallTile("a/a.osgb"));
+    writeFile(folder / "db/a/a.osgb", *makeSmallTile("b.osgb"));
+    for (const char* above : {"../a/a.osgb", "../earth.osgb"}) {
+        writeFile(folder / "db/a/b.osgb", *makeSmallTile(above));
+        expectFailure(runIndex(root), "paged below itself");
+        expectNoIndex();
+    }
 }
 
-TEST(SmallRun, AMissingFileLeavesItsParentWithAllThatTerrainMayBe) {
-    const TemporaryFolder folder;
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
+TEST_F(HardInput, AMissingFileLeavesItsParentWithAllThatTerrainMayBe) {
+    writeRoot(root, *makeSmallTile("a.osgb"));
     for (const bool isBroken : {false, true}) {
-        if (isBroken) writeBytes(folder / "a.osgb", "no scene at all");
-        const Outcome outcome = runIndex(folder / "earth.osgb");
-        EXPECT_EQ(outcome.code, 0);
-        EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
-        EXPECT_NE(outcome.text.find("a.osgb"), std::string::npos) << outcome.text;
-        const osg::ref_ptr<BinIndex> index = indexOf(folder / "earth.osgb");
+        if (isBroken) (void)folder.write("db/a.osgb", "no scene at all");
+        (void)indexWithWarning("a.osgb");
+        const osg::ref_ptr<BinIndex> index = indexOf(root);
         EXPECT_TRUE(index->find("", 0)->bin.bin().altitude().contains({-11500.0, 9000.0}));
         EXPECT_FALSE(index->find("a.osgb", 0));
     }
 }
 
-TEST(SmallRun, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
-    const TemporaryFolder folder;
+TEST_F(HardInput, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
     const osg::ref_ptr<osg::Node> odd = makeSmallTile("");
     odd->setDataVariance(osg::Object::DYNAMIC);
-    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
-    writeSmallFile(folder / "a.osgb", *makeSmallTile("b.osgb"));
-    writeSmallFile(folder / "b.osgb", *odd);
-    const Outcome outcome = runIndex(folder / "earth.osgb");
-    EXPECT_EQ(outcome.code, 0);
-    EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
-    const osg::ref_ptr<BinIndex> index = indexOf(folder / "earth.osgb");
+    writeRoot(root, *makeSmallTile("a.osgb"));
+    writeFile(folder / "db/a.osgb", *makeSmallTile("b.osgb"));
+    writeFile(folder / "db/b.osgb", *odd);
+    (void)indexWithWarning("");
+    const osg::ref_ptr<BinIndex> index = indexOf(root);
     EXPECT_FALSE(index->find("", 0)->bin.valid());
     EXPECT_FALSE(index->find("a.osgb", 0)->bin.valid());
 }
 
-TEST(SmallRun, BadCommandLinesAreOneLine) {
-    const TemporaryFolder folder;
-    expectUsageError(runBinconv(""), "FILE");
-    expectFailure(runBinconv("--index " + test::quoted(folder / "absent.osgb")), "absent.osgb");
-    expectFailure(runBinconv("--index " + test::quoted(folder.path())), "is no file");
-    expectFailure(runBinconv("--index http://host/earth.osgb"), "on a server");
-    expectUsageError(runBinconv("--index --print x"), "--");
-    expectUsageError(runBinconv("--index --threads 0 x"), "--threads: Value 0");
-    expectUsageError(runBinconv("--cluster maybe x x.osgb"), "--cluster: maybe");
-    expectUsageError(runBinconv("x"), "nothing to do");
-    expectUsageError(runBinconv("--index a b"), "\"b\"");
-    expectUsageError(runBinconv("a b c"), "\"c\"");
-    expectUsageError(runBinconv("--frobnicate x"), "--frobnicate");
-    writeBytes(folder / "text.osgb", "no scene");
-    expectFailure(runIndex(folder / "text.osgb"), "text.osgb");
-    writeSmallFile(folder / "cow.osgb", *makeSmallTile(""));
-    expectFailure(runIndex(folder / "cow.osgb"), "no tile of a globe or a map");
-    EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins"));
-    EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins.part"));
-}
-
-TEST(SmallRun, ABadOutputNameIsRefusedBeforeTheDatabaseIsRead) {
-    const TemporaryFolder folder;
-    // reading it comes to another failure
-    writeBytes(folder / "text.osgb", "no scene");
-    writeBytes(folder / "there.osgb", "somebody's");
-    const auto copyTo = [&](const std::string& output) {
-        return runBinconv("--quiet " + test::quoted(folder / "text.osgb") + ' ' + test::quoted(folder / output));
-    };
-    expectUsageError(copyTo("copy.ive"), ".osgb, .osgt or .osgx");
-    expectFailure(copyTo("absent/copy.osgb"), "create it first");
-    expectFailure(copyTo("there.osgb"), "--overwrite");
-    expectFailure(copyTo("text.osgb"), "a file of the database itself");
-    fs::create_directory(folder / "folder.osgb");
-    expectFailure(copyTo("folder.osgb"), "is a folder");
-    expectFailure(copyTo("copy.osgb"), "text.osgb");
-    EXPECT_EQ(bytesOf(folder / "there.osgb"), "somebody's");
+TEST_F(HardInput, BadCommandLinesAreOneLine) {
+    const std::string text = folder.write("text.osgb", "no scene");
+    const std::string cow = folder / "cow.osgb";
+    writeFile(cow, *makeSmallTile(""));
+    const struct {
+        std::vector<std::string> words;
+        std::string what;
+        int code = 2;
+    } cases[] = {{{}, "FILE"},
+                 {{"--index", "--print", "x"}, "--"},
+                 {{"--index", "--threads", "0", "x"}, "--threads: Value 0"},
+                 {{"--cluster", "maybe", "x", "x.osgb"}, "--cluster: maybe"},
+                 {{"x"}, "nothing to do"},
+                 {{"--index", "a", "b"}, "\"b\""},
+                 {{"a", "b", "c"}, "\"c\""},
+                 {{"--frobnicate", "x"}, "--frobnicate"},
+                 {{"--index", folder / "absent.osgb"}, "absent.osgb", 1},
+                 {{"--index", folder.path()}, "is no file", 1},
+                 {{"--index", "http://host/earth.osgb"}, "on a server", 1},
+                 {{"--quiet", "--index", text}, "text.osgb", 1},
+                 {{"--quiet", "--index", cow}, "no tile of a globe or a map", 1}};
+    for (const auto& wrong : cases) expectFailure(runBinconv(wrong.words), wrong.what, wrong.code);
+    EXPECT_FALSE(fs::exists(cow + ".bins"));
+    EXPECT_FALSE(fs::exists(cow + ".bins.part"));
+    // A bad name of the copy is refused before the database is read, which comes to another failure.
+    const std::string there = folder.write("there.osgb", "somebody's");
+    expectFailure(runCopy(text, folder / "copy.ive"), ".osgb, .osgt or .osgx", 2);
+    expectFailure(runCopy(text, folder / "absent/copy.osgb"), "create it first");
+    expectFailure(runCopy(text, there), "--overwrite");
+    expectFailure(runCopy(text, text), "a file of the database itself");
+    expectFailure(runCopy(text, folder.makeFolder("folder.osgb")), "is a folder");
+    expectFailure(runCopy(text, folder / "copy.osgb"), "text.osgb");
+    EXPECT_EQ(textOfFile(there), "somebody's");
 }
 
 }  // namespace

@@ -1,22 +1,28 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What osgbinconv puts into an index, for databases of four makes. Oracle: samples of the triangles that OpenSceneGraph
-// draws, tile by tile.
+// What osgbinconv puts into an index, for databases of four makes and for maps. Oracles: samples of the triangles that
+// OpenSceneGraph draws, tile by tile; the heights that a map was made of.
 
 #include "BinconvRuns.h"
+#include "Databases.h"
 #include "DrawnDatabase.h"
-#include "TestDatabases.h"
 
 #include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileFinder.h>
 
 #include <gtest/gtest.h>
+#include <osg/PagedLOD>
+#include <osgDB/WriteFile>
 
+#include <PagedFlight.h>
+#include <PlanarMap.h>
 #include <TileFixture.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <support/StockPrograms.h>
+#include <support/Random.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
@@ -24,13 +30,21 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647693;
 
+// Whether a position is on the footprint of a bin, its rim included; longitudes modulo a turn.
+bool isOnFootprint(const core::GeodeticBin& bin, const core::Geodetic& position) {
+    constexpr double kRim = 1e-9;
+    const double offset = position.longitude - bin.longitude().lower;
+    const double east = offset - kTwoPi * std::floor((offset + kRim) / kTwoPi);
+    return east <= bin.longitude().width() + kRim && position.latitude >= bin.latitude().lower - kRim &&
+           position.latitude <= bin.latitude().upper + kRim;
+}
+
 class Index : public ::testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
         if (!isAtHand(GetParam())) GTEST_SKIP() << GetParam() << " is not there";
         _database = makeDatabase(GetParam(), _folder);
-        ASSERT_FALSE(_database.empty());
-        EXPECT_EQ(runIndex(_database).text, "");
+        expectSuccess(runIndex(_database));
         _index = indexOf(_database);
         _tiles = readAllTiles(_database);
         ASSERT_FALSE(_tiles.empty());
@@ -43,12 +57,60 @@ protected:
         return entry ? *entry : kNone;
     }
 
-    void expectKnowsEveryTileAndNoOther() const;
-    void expectEachEntryHoldsWhatItsTileAndAllDescendantsDraw() const;
-    void expectEntriesHoldThoseOfTheirDescendants() const;
-    void expectEntriesAreNoHigherThanTheHighestDescendantAndNoDeeperThanSkirts() const;
-    void expectNoCrackShowsASkirtBelowItsTilesEntry() const;
-    void expectSkirtsHardlyDeepenThem() const;
+    // The entry is the tile's own, and holds what it draws; so do those of all tiles above it.
+    void expectHolds(const DrawnTile& tile) const {
+        const BinIndex::Entry& own = entryOf(tile);
+        EXPECT_EQ(own.fingerprint, tile.fingerprint) << tile.file;
+        EXPECT_NE(tile.fingerprint, 0u);
+        EXPECT_TRUE(own.bin.valid());
+        EXPECT_LE(own.ownLow, tile.low);
+        EXPECT_GT(own.ownLow, tile.low - 0.1);
+        ASSERT_FALSE(tile.samples.empty());
+        ASSERT_LE(metresOutside(own.bin, tile.samples, ellipsoidOfTests()), own.bin.margin()) << tile.file;
+        for (const std::size_t above : tile.ancestors) {
+            const AnalyticBin& bin = entryOf(_tiles[above]).bin;
+            EXPECT_TRUE(bin.contains(own.bin)) << tile.file;
+            ASSERT_LE(metresOutside(bin, tile.samples, ellipsoidOfTests()), bin.margin())
+                << tile.file << " in " << _tiles[above].file;
+        }
+    }
+
+    // No higher than the highest descendant, and no deeper than skirts.
+    void expectTight() const {
+        std::vector<double> high, low;
+        for (const DrawnTile& tile : _tiles) {
+            high.push_back(tile.high);
+            low.push_back(tile.low - tile.skirt);
+            for (const std::size_t above : tile.ancestors) {
+                high[above] = std::max(high[above], high.back());
+                low[above] = std::min(low[above], low.back());
+            }
+        }
+        for (std::size_t i = 0; i < _tiles.size(); ++i) {
+            const core::Interval& altitude = entryOf(_tiles[i]).bin.bin().altitude();
+            EXPECT_LT(altitude.upper, high[i] + 0.1) << _tiles[i].file;
+            EXPECT_GT(altitude.lower, low[i] - 0.1) << _tiles[i].file;
+        }
+    }
+
+    // An eye above sees a skirt through the crack at a neighbour's edge, above the neighbour's surface there.
+    void expectNoCrackShowsASkirtBelowItsTilesEntry() const {
+        std::size_t cracks = 0;
+        for (std::size_t i = 0; i < _tiles.size(); ++i) {
+            const AnalyticBin& bin = entryOf(_tiles[i]).bin;
+            const double endOfSkirt = _tiles[i].low - _tiles[i].skirt;
+            for (std::size_t k = 0; k < _tiles.size(); ++k) {
+                if (i == k || _tiles[i].isAbove(i, _tiles[k]) || _tiles[k].isAbove(k, _tiles[i])) continue;
+                for (const core::Geodetic& edge : _tiles[k].edgeSamples) {
+                    if (!isOnFootprint(bin.bin(), edge)) continue;
+                    ++cracks;
+                    ASSERT_LE(bin.bin().altitude().lower, std::max(edge.altitude, endOfSkirt) + bin.margin())
+                        << _tiles[i].file << ' ' << _tiles[i].ordinal << " beside " << _tiles[k].file;
+                }
+            }
+        }
+        EXPECT_GT(cracks, 100u);
+    }
 
     TemporaryFolder _folder;
     std::string _database;
@@ -56,108 +118,106 @@ protected:
     std::vector<DrawnTile> _tiles;
 };
 
-// Whether a position is on the footprint of a bin, its rim included; longitudes modulo a turn.
-bool isOnFootprint(const core::GeodeticBin& bin, const core::Geodetic& position) {
-    constexpr double kRim = 1e-9;
-    const double offset = position.longitude - bin.longitude().lower;
-    const double east = offset - kTwoPi * std::floor((offset + kRim) / kTwoPi);
-    return east <= bin.longitude().width() + kRim && position.latitude >= bin.latitude().lower - kRim &&
-           position.latitude <= bin.latitude().upper + kRim;
-}
-
-void Index::expectKnowsEveryTileAndNoOther() const {
+TEST_P(Index, HoldsWhatItsDatabaseDrawsAndLittleElse) {
     EXPECT_EQ(_index->tileCount(), _tiles.size());
-    for (const DrawnTile& tile : _tiles) {
-        EXPECT_EQ(entryOf(tile).fingerprint, tile.fingerprint) << tile.file;
-        EXPECT_NE(tile.fingerprint, 0u);
-        EXPECT_TRUE(entryOf(tile).bin.valid());
-        EXPECT_LE(entryOf(tile).ownLow, tile.low);
-        EXPECT_GT(entryOf(tile).ownLow, tile.low - 0.1);
-    }
     EXPECT_EQ(_index->source().name, std::filesystem::path(_database).filename());
     EXPECT_EQ(_index->source().size, std::filesystem::file_size(_database));
-}
-
-void Index::expectEachEntryHoldsWhatItsTileAndAllDescendantsDraw() const {
-    for (const DrawnTile& tile : _tiles) {
-        ASSERT_FALSE(tile.samples.empty());
-        std::vector<std::size_t> line = tile.ancestors;
-        line.insert(line.begin(), static_cast<std::size_t>(&tile - _tiles.data()));
-        for (const std::size_t above : line) {
-            const AnalyticBin& bin = entryOf(_tiles[above]).bin;
-            ASSERT_LE(metresOutside(bin, tile.samples, ellipsoidOfTests()), bin.margin())
-                << tile.file << " in " << _tiles[above].file;
-        }
-    }
-}
-
-void Index::expectEntriesHoldThoseOfTheirDescendants() const {
-    for (const DrawnTile& tile : _tiles) {
-        for (const std::size_t above : tile.ancestors) {
-            EXPECT_TRUE(entryOf(_tiles[above]).bin.contains(entryOf(tile).bin)) << tile.file;
-        }
-    }
-}
-
-void Index::expectEntriesAreNoHigherThanTheHighestDescendantAndNoDeeperThanSkirts() const {
-    std::vector<double> high, low, skirt;
-    for (const DrawnTile& tile : _tiles) {
-        high.push_back(tile.high);
-        low.push_back(tile.low - tile.skirt);
-    }
-    for (const DrawnTile& tile : _tiles) {
-        for (const std::size_t above : tile.ancestors) {
-            high[above] = std::max(high[above], tile.high);
-            low[above] = std::min(low[above], tile.low - tile.skirt);
-        }
-    }
-    for (std::size_t i = 0; i < _tiles.size(); ++i) {
-        const core::Interval& altitude = entryOf(_tiles[i]).bin.bin().altitude();
-        EXPECT_LT(altitude.upper, high[i] + 0.1) << _tiles[i].file;
-        EXPECT_GT(altitude.lower, low[i] - 0.1) << _tiles[i].file;
-    }
-}
-
-// An eye above sees a skirt through the crack at a neighbour's edge, above the neighbour's surface there.
-void Index::expectNoCrackShowsASkirtBelowItsTilesEntry() const {
-    std::size_t cracks = 0;
-    for (std::size_t i = 0; i < _tiles.size(); ++i) {
-        const AnalyticBin& bin = entryOf(_tiles[i]).bin;
-        const double endOfSkirt = _tiles[i].low - _tiles[i].skirt;
-        for (std::size_t k = 0; k < _tiles.size(); ++k) {
-            if (i == k || _tiles[i].isAbove(i, _tiles[k]) || _tiles[k].isAbove(k, _tiles[i])) continue;
-            for (const core::Geodetic& edge : _tiles[k].edgeSamples) {
-                if (!isOnFootprint(bin.bin(), edge)) continue;
-                ++cracks;
-                ASSERT_LE(bin.bin().altitude().lower, std::max(edge.altitude, endOfSkirt) + bin.margin())
-                    << _tiles[i].file << ' ' << _tiles[i].ordinal << " beside " << _tiles[k].file;
-            }
-        }
-    }
-    EXPECT_GT(cracks, 100u);
-}
-
-// Cracks show little of the skirts of a whole globe: the entries stay far above their ends.
-void Index::expectSkirtsHardlyDeepenThem() const {
-    double withSkirts = 0.0;
-    double deepened = 0.0;
-    for (const DrawnTile& tile : _tiles) {
-        withSkirts += tile.skirt;
-        deepened += tile.low - entryOf(tile).bin.bin().altitude().lower;
-    }
-    EXPECT_LT(deepened, 0.2 * withSkirts);
-}
-
-TEST_P(Index, HoldsWhatItsDatabaseDrawsAndLittleElse) {
-    expectKnowsEveryTileAndNoOther();
-    expectEachEntryHoldsWhatItsTileAndAllDescendantsDraw();
-    expectEntriesHoldThoseOfTheirDescendants();
-    expectEntriesAreNoHigherThanTheHighestDescendantAndNoDeeperThanSkirts();
+    for (const DrawnTile& tile : _tiles) expectHolds(tile);
+    expectTight();
     expectNoCrackShowsASkirtBelowItsTilesEntry();
-    if (std::filesystem::exists(std::string(SAMPLE_DATA "/vpb/") + GetParam())) expectSkirtsHardlyDeepenThem();
 }
 
 INSTANTIATE_TEST_SUITE_P(Makes, Index, ::testing::Values("synthetic", "bindem", "terrain", "polygonal"),
+                         [](const auto& suite) { return std::string(suite.param); });
+
+using core::Interval;
+
+class MapIndex : public ::testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        _map.isTerrain = std::string(GetParam()) == "terrain";
+        ASSERT_TRUE(osgDB::writeNodeFile(*_map.build(_folder.path()), _file));
+        expectSuccess(runIndex(_file));
+        _index = indexOf(_file);
+    }
+
+    const TemporaryFolder _folder;
+    PlanarMap _map;
+    const std::string _file = _folder / "map.osgb";
+    osg::ref_ptr<BinIndex> _index;
+};
+
+TEST_P(MapIndex, HoldsTheHeightsOfAllTiles) {
+    EXPECT_EQ(_index->tileCount(), 1u + 4u + 16u + 64u);
+    const auto expectHolds = [](const Interval& outer, double unit, double lower, double upper, double room) {
+        EXPECT_LE(unit * outer.lower, lower);
+        EXPECT_GT(unit * outer.lower, lower - room);
+        EXPECT_GE(unit * outer.upper, upper);
+        EXPECT_LT(unit * outer.upper, upper + room);
+    };
+    // all levels have the peaks and pits of the finest; skirts of the border hang below
+    const double skirt = 0.02 * std::sqrt(0.5) * _map.size;
+    for (const auto& [file, tiles] : _index->files()) {
+        for (const BinIndex::Entry& tile : tiles) {
+            ASSERT_TRUE(tile.bin.valid()) << file;
+            EXPECT_LT(tile.bin.margin(), 3.0);
+            expectHolds(tile.bin.bin().altitude(), 1.0, 0.0, 2600.0, skirt + 1.0);
+        }
+    }
+    constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
+    const core::GeodeticBin& root = _index->find("", 0)->bin.bin();
+    expectHolds(root.longitude(), kUnits, _map.origin.x(), _map.origin.x() + _map.size, 0.01);
+    expectHolds(root.latitude(), kUnits, _map.origin.y(), _map.origin.y() + _map.size, 0.01);
+}
+
+TEST_P(MapIndex, AgreesWithItsMapAndIsNotTakenForAGlobe) {
+    EXPECT_EQ(runBinconv({"--quiet", "--check", _file}).code, 0);
+    expectFailure(runCopy(_file, _folder / "copy.osgb"), "is a map, whose bins cannot be stored");
+    // the same meshes below another coordinate system are other tiles
+    EXPECT_TRUE(findTiles(*_map.mesh(0, 0, 0)).empty());
+    FoundTile tile = findTiles(*_map.build(_folder.path())).front();
+    const std::uint64_t inMap = tileFingerprint(tile);
+    EXPECT_EQ(_index->find("", 0)->fingerprint, inMap);
+    tile.frame.ellipsoid = new osg::EllipsoidModel;
+    EXPECT_NE(tileFingerprint(tile), inMap);
+}
+
+TEST_P(MapIndex, IsPrintedInMetres) {
+    const auto expectPrinted = [&](const std::string& what) {
+        const Outcome printed = runBinconv({"--print", _file + ".bins"});
+        EXPECT_EQ(printed.code, 0);
+        EXPECT_EQ(printed.linesWith(what), 1) << printed.text;
+    };
+    expectPrinted("8000 .. 64000 m in a map, some 4 levels");
+    std::filesystem::remove(_file);
+    expectPrinted("unknown without \"map.osgb\"");
+}
+
+// Without the index, tiles are as high as all terrain on earth.
+TEST_P(MapIndex, CullsAsDeclaredHeightsDoWithoutAny) {
+    const osg::ref_ptr<osg::Group> plain = _map.build(_folder.path());
+    const osg::ref_ptr<osg::Group> indexed = _map.build(_folder.path());
+    ASSERT_EQ(installBins(*indexed, optionsOf("occlusion=off"), _file), 1u);
+    PagedFlight spheres(*plain), bins(*indexed);
+    Random random(4820);
+    std::size_t withSpheres = 0, withBins = 0;
+    for (int i = 0; i < 40; ++i) {
+        const auto place = [&](double height) {
+            return _map.origin + osg::Vec3d(_map.size * random.uniform(), _map.size * random.uniform(), height);
+        };
+        const osg::Vec3d eye = place(random.uniform(3000.0, 8000.0));
+        const CullView view = CullView::lookAt(eye, place(0.0), {0, 0, 1}, random.uniform(10.0, 60.0));
+        ASSERT_TRUE(spheres.load(view));
+        ASSERT_TRUE(bins.load(view));
+        EXPECT_LE(bins.drawn().size(), spheres.drawn().size());
+        withSpheres += spheres.drawn().size();
+        withBins += bins.drawn().size();
+    }
+    EXPECT_GT(withBins, 100u);
+    EXPECT_LT(withBins, withSpheres);
+}
+
+INSTANTIATE_TEST_SUITE_P(Makes, MapIndex, ::testing::Values("terrain", "polygonal"),
                          [](const auto& suite) { return std::string(suite.param); });
 
 }  // namespace

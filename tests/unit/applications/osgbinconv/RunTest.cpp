@@ -4,7 +4,7 @@
 // osgbinconv writes the same bytes with any number of threads, and after it was killed and started again.
 
 #include "BinconvRuns.h"
-#include "SmallDatabase.h"
+#include "Databases.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,6 @@
 #include <filesystem>
 #include <iterator>
 #include <support/Random.h>
-#include <support/StockPrograms.h>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -23,188 +20,153 @@ namespace fs = std::filesystem;
 
 class Run : public ::testing::Test {
 protected:
-    void SetUp() override {
-        _database = writeSyntheticDatabase(_folder.path());
-        ASSERT_FALSE(_database.empty());
-    }
-    [[nodiscard]] std::string indexFile() const { return _database + ".bins"; }
-    [[nodiscard]] std::string partFile() const { return _database + ".bins.part"; }
+    void SetUp() override { ASSERT_EQ(makeDatabase("synthetic", folder), database); }
 
-    std::string indexed(const std::string& options = {}) {
-        const Outcome outcome = runBinconv("--quiet --index " + options + ' ' + test::quoted(_database));
-        EXPECT_EQ(outcome.code, 0) << outcome.text;
-        EXPECT_EQ(outcome.text, "");
-        EXPECT_FALSE(fs::exists(partFile()));
-        return bytesOf(indexFile());
+    // Indexes the database. Returns: the index.
+    [[nodiscard]] std::string indexed(const std::string& option = "--quiet") const {
+        expectSuccess(runBinconv({"--quiet", "--index", option, database}));
+        EXPECT_FALSE(fs::exists(part));
+        return textOfFile(index);
+    }
+    [[nodiscard]] std::string indexedAnew() const {
+        fs::remove(index);
+        return indexed();
+    }
+    // A folder in the way of the last step leaves all records, as a kill just before it does. Returns: these.
+    [[nodiscard]] std::string recordsOfAKilledRun() const {
+        fs::create_directories(index + ".tmp/in the way");
+        expectFailure(runIndex(database), "cannot write");
+        fs::remove_all(index + ".tmp");
+        return textOfFile(part);
+    }
+    void changeATile() const { writeFile(folder / "tiles_1_3_3.osgb", *makeSmallTile("")); }
+
+    // Ctrl-C as soon as a file is there and not empty; a run may be too fast for it, and is tried again.
+    [[nodiscard]] Outcome interruptedAt(const std::string& file, const std::vector<std::string>& words,
+                                        const std::string& remains) const {
+        std::vector<std::string> command{OSGBINCONV_PROGRAM, "--quiet", "--threads", "1"};
+        command.insert(command.end(), words.begin(), words.end());
+        Outcome outcome;
+        for (int i = 0; i < 20 && outcome.code != 130; ++i) {
+            fs::remove_all(remains);
+            if (remains != index) fs::create_directories(remains);
+            outcome = runStock(interrupted(quoted(command), "test -s " + quoted(file)), Modules::Present);
+        }
+        return outcome;
     }
 
-    /// A run of one thread that gets a signal as soon as a file is there and not empty. In the background a shell
-    /// without job control has SIGINT ignored; our programs take it all the same.
-    Outcome endedBy(const std::string& signal, const std::string& arguments, const std::string& file) {
-        const std::string start = test::quoted(OSGBINCONV_PROGRAM) + " --quiet --threads 1 " + arguments + " &\n";
-        const std::string wait = "while [ ! -s " + test::quoted(file) + " ] && kill -0 $! 2>/dev/null; do :; done\n";
-        const std::string end = "kill -" + signal + " $! 2>/dev/null\nwait $!\n";
-        const std::string script = _folder.write("run.sh", start + wait + end);
-        return runStock("sh " + test::quoted(script), Modules::Present);
-    }
-    Outcome indexEndedBy(const std::string& signal) {
-        return endedBy(signal, "--index " + test::quoted(_database), partFile());
-    }
-
-    TemporaryFolder _folder;
-    std::string _database;
+    const TemporaryFolder folder;
+    const std::string database = folder / "globe.osgb";
+    const std::string index = database + ".bins";
+    const std::string part = database + ".bins.part";
 };
 
 TEST_F(Run, ThreadsDoNotChangeAByte) {
-    const std::string one = indexed("--threads 1");
+    const std::string one = indexed("--threads=1");
     ASSERT_FALSE(one.empty());
-    EXPECT_EQ(indexed("--threads 2"), one);
-    EXPECT_EQ(indexed("--threads 5"), one);
+    EXPECT_EQ(indexed("--threads=2"), one);
+    EXPECT_EQ(indexed("--threads=5"), one);
 }
 
 TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
     const std::string whole = indexed();
-    fs::remove(indexFile());
-    // A folder in the way of the last step leaves all records, as a kill just before it does.
-    fs::create_directories(indexFile() + ".tmp/in the way");
-    expectFailure(runIndex(_database), "cannot write");
-    const std::string part = bytesOf(partFile());
-    ASSERT_GT(part.size(), 10000u);
-    fs::remove_all(indexFile() + ".tmp");
+    fs::remove(index);
+    const std::string records = recordsOfAKilledRun();
+    ASSERT_GT(records.size(), 10000u);
     Random random(31);
     for (int i = 0; i < 8; ++i) {
         std::string damaged =
-            part.substr(0, static_cast<std::size_t>(random.integer(0, static_cast<int>(part.size()))));
+            records.substr(0, static_cast<std::size_t>(random.integer(0, static_cast<int>(records.size()))));
         if (i % 2 == 1 && !damaged.empty()) damaged.back() = static_cast<char>(damaged.back() ^ 4);
-        writeBytes(partFile(), damaged);
+        (void)folder.write("globe.osgb.bins.part", damaged);
         EXPECT_EQ(indexed(), whole) << damaged.size();
     }
     // all of it: nothing is read again
-    writeBytes(partFile(), part);
-    const Outcome rerun = runBinconv("--index " + test::quoted(_database));
-    EXPECT_NE(rerun.text.find("(161 files from an earlier run)"), std::string::npos) << rerun.text;
-    EXPECT_EQ(bytesOf(indexFile()), whole);
-}
-
-TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
-    const std::string whole = indexed();
-    fs::create_directories(indexFile() + ".tmp/in the way");
-    (void)runIndex(_database);
-    fs::remove_all(indexFile() + ".tmp");
-    ASSERT_TRUE(fs::exists(partFile()));
-    const std::string tile = _folder / "tiles_1_3_3.osgb";
-    const std::string was = bytesOf(tile);
-    writeSmallFile(tile, *makeSmallTile(""));
-    const std::string part = bytesOf(partFile());
+    (void)folder.write("globe.osgb.bins.part", records);
+    EXPECT_EQ(runBinconv({"--index", database}).linesWith("(161 files from an earlier run)"), 1);
+    EXPECT_EQ(textOfFile(index), whole);
+    // files that have changed since are
+    ASSERT_FALSE(recordsOfAKilledRun().empty());
+    changeATile();
     const std::string changed = indexed();
     EXPECT_NE(changed, whole);
-    fs::remove(indexFile());
-    EXPECT_EQ(indexed(), changed);
+    EXPECT_EQ(indexedAnew(), changed);
 }
 
 TEST_F(Run, KeptRecordsSpareReadingWhatHasNotChanged) {
-    const std::string command = "--index --keep-records " + test::quoted(_database);
+    const std::vector<std::string> command{"--index", "--keep-records", database};
     ASSERT_EQ(runBinconv(command).code, 0);
-    const std::string part = bytesOf(partFile());
-    writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
-    fs::last_write_time(_database, fs::last_write_time(_database) + std::chrono::seconds(7));
-    const Outcome rerun = runBinconv(command);
-    EXPECT_NE(rerun.text.find("(159 files from an earlier run)"), std::string::npos) << rerun.text;
-    const std::string changed = bytesOf(indexFile());
-    EXPECT_LT(bytesOf(partFile()).size(), part.size() + 1000) << "what is replaced is kept";
-    fs::remove(partFile());
+    const std::size_t size = textOfFile(part).size();
+    changeATile();
+    fs::last_write_time(database, fs::last_write_time(database) + std::chrono::seconds(7));
+    EXPECT_EQ(runBinconv(command).linesWith("(159 files from an earlier run)"), 1);
+    const std::string changed = textOfFile(index);
+    EXPECT_LT(textOfFile(part).size(), size + 1000) << "what is replaced is kept";
+    fs::remove(part);
     EXPECT_EQ(indexed(), changed);
 }
 
 TEST_F(Run, ProgressOfEveryPassEndsAtTheWhole) {
     // The share of a file is that of the files below it: the sum is whole only when each was counted once.
-    const Outcome indexing = runBinconv("--index " + test::quoted(_database));
-    expectOneLine(indexing, "osgbinconv: read 161 files, 672 tiles, ");
+    const Outcome indexing = runBinconv({"--index", database});
+    expectOneLine(indexing, "osgbinconv", "osgbinconv: read 161 files, 672 tiles, ", 0);
     EXPECT_EQ(indexing.linesWith(" tiles/s, 100 %, done in "), 1) << indexing.text;
-    const Outcome copying =
-        runBinconv(test::quoted(_database) + ' ' + test::quoted(_folder.makeFolder("copy") + "/globe.osgb"));
+    const Outcome copying = runBinconv({database, folder.makeFolder("copy") + "/globe.osgb"});
     EXPECT_EQ(copying.linesWith("osgbinconv: copied 161 files, 672 tiles, "), 1) << copying.text;
     EXPECT_EQ(copying.linesWith(" tiles/s, 100 %, done in "), 2) << copying.text;
 }
 
-constexpr int kMostAttempts = 20;
-
 TEST_F(Run, InterruptedRunsSayHowToGoOnAndDo) {
     const std::string whole = indexed();
-    fs::remove(indexFile());
-    Outcome outcome = indexEndedBy("INT");
-    // it may have been too fast to interrupt
-    for (int i = 0; i < kMostAttempts && outcome.code == 0; ++i) {
-        fs::remove(indexFile());
-        outcome = indexEndedBy("INT");
-    }
-    EXPECT_EQ(outcome.code, 130);
-    expectOneLine(outcome, "goes on where it ended");
-    EXPECT_TRUE(fs::exists(partFile()));
-    EXPECT_FALSE(fs::exists(indexFile()));
+    expectFailure(interruptedAt(part, {"--index", database}, index), "goes on where it ended", 130);
+    EXPECT_TRUE(fs::exists(part));
+    EXPECT_FALSE(fs::exists(index));
     EXPECT_EQ(indexed(), whole);
 }
 
 TEST_F(Run, InterruptedCopiesLeaveNothingAndTheSameCommandMakesThem) {
-    const std::string folder = _folder / "copy";
-    fs::create_directories(folder);
-    const std::string arguments = test::quoted(_database) + ' ' + test::quoted(folder + "/globe.osgb");
-    Outcome outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
-    for (int i = 0; i < kMostAttempts && outcome.code == 0; ++i) {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-        outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
-    }
-    EXPECT_EQ(outcome.code, 130);
-    expectOneLine(outcome, "interrupted");
-    EXPECT_TRUE(fs::is_empty(folder));
-    const Outcome rerun = runBinconv("--quiet " + arguments);
-    EXPECT_EQ(rerun.code, 0) << rerun.text;
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 161);
+    const std::string copies = folder / "copy";
+    const std::string copy = copies + "/globe.osgb";
+    expectFailure(interruptedAt(copies + "/tiles_1_3_3.osgb", {database, copy}, copies), "interrupted", 130);
+    EXPECT_TRUE(fs::is_empty(copies));
+    EXPECT_EQ(runCopy(database, copy).code, 0);
+    EXPECT_EQ(std::distance(fs::directory_iterator(copies), fs::directory_iterator()), 161);
 }
 
-TEST_F(Run, CheckFindsWhatHasChanged) {
+TEST_F(Run, CheckAndPrintTellWhatIsInAnIndex) {
     (void)indexed();
-    const Outcome same = runBinconv("--quiet --check " + test::quoted(_database));
+    const auto check = [&] { return runBinconv({"--quiet", "--check", database}); };
+    const Outcome same = check();
     EXPECT_EQ(same.code, 0) << same.text;
-    EXPECT_NE(same.text.find("672 tiles in 161 files"), std::string::npos) << same.text;
-    writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
-    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), "does not agree");
-    fs::remove(indexFile());
-    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), "has no index; make one with");
-}
-
-TEST_F(Run, PrintTellsWhatIsInAnIndex) {
-    (void)indexed();
-    const Outcome printed = runBinconv("--print " + test::quoted(indexFile()));
+    EXPECT_EQ(same.linesWith("672 tiles in 161 files"), 1) << same.text;
+    const Outcome printed = runBinconv({"--print", index});
     EXPECT_EQ(printed.code, 0);
-    for (const char* part : {"globe.osgb", "672 in 161 files", "without bounds 0", "m in the finest tiles", "degrees",
-                             "some 3 levels", "per tile"}) {
-        EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
-    }
-    EXPECT_EQ(runBinconv("--print " + test::quoted(_database)).text, printed.text);
-    fs::remove(indexFile());
-    expectFailure(runBinconv("--print " + test::quoted(_database)), "has no index; make one with");
-    expectFailure(runBinconv("--print " + test::quoted(_folder / "absent.bins")), "absent.bins");
+    for (const char* word : {"globe.osgb", "672 in 161 files", "without bounds 0", "m in the finest tiles", "degrees",
+                             "some 3 levels", "per tile"})
+        EXPECT_NE(printed.text.find(word), std::string::npos) << printed.text;
+    EXPECT_EQ(runBinconv({"--print", database}).text, printed.text);
+    changeATile();
+    expectFailure(check(), "does not agree");
+    fs::remove(index);
+    expectFailure(check(), "has no index; make one with");
+    expectFailure(runBinconv({"--print", database}), "has no index; make one with");
+    expectFailure(runBinconv({"--print", folder / "absent.bins"}), "absent.bins");
 }
 
 TEST_F(Run, AFullDiskIsNoticedAndTheRerunGoesOn) {
     const std::string whole = indexed();
-    fs::remove(indexFile());
-    // A limit on the size of files, in units of 512 or 1024 bytes, stands in for the full disk.
-    const Outcome outcome = runStock("sh -c \"ulimit -f 40; exec " + test::quoted(OSGBINCONV_PROGRAM) +
-                                         " --quiet --index " + test::quoted(_database) + '"',
-                                     Modules::Present);
-    expectFailure(outcome, "make room");
-    EXPECT_FALSE(fs::exists(indexFile()));
-    EXPECT_GT(fs::file_size(partFile()), 10000u);
+    fs::remove(index);
+    const std::vector<std::string> command{OSGBINCONV_PROGRAM, "--quiet", "--index", database};
+    expectFailure(runStock(onFullDisk(quoted(command), 40), Modules::Present), "make room");
+    EXPECT_FALSE(fs::exists(index));
+    EXPECT_GT(fs::file_size(part), 10000u);
     EXPECT_EQ(indexed(), whole);
 }
 
 TEST_F(Run, WhatIsNotOursIsNotReplaced) {
-    writeBytes(indexFile(), "my own notes");
-    expectFailure(runIndex(_database), "move it away");
-    EXPECT_EQ(bytesOf(indexFile()), "my own notes");
+    (void)folder.write("globe.osgb.bins", "my own notes");
+    expectFailure(runIndex(database), "move it away");
+    EXPECT_EQ(textOfFile(index), "my own notes");
 }
 
 }  // namespace
