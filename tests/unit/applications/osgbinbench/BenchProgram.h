@@ -7,18 +7,24 @@
 #include <string>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
+inline std::string benchCommand(std::vector<std::string> words) {
+    words.insert(words.begin(), BENCH_FILE);
+    return quoted(words);
+}
+
 /// Runs osgbinbench on a virtual display, for five minutes at most.
-[[nodiscard]] inline Outcome runBench(const std::string& arguments) {
+[[nodiscard]] inline Outcome runBench(const std::vector<std::string>& words) {
     constexpr int kMostSeconds = 300;
-    return runOnDisplay(quoted(BENCH_FILE) + ' ' + arguments, kMostSeconds);
+    return runOnDisplay(benchCommand(words), kMostSeconds);
 }
 
 /// Runs osgbinbench without any display.
-[[nodiscard]] inline Outcome runBenchBlind(const std::string& arguments) {
-    return runStock(quoted(BENCH_FILE) + ' ' + arguments, Modules::Absent, "-u DISPLAY ASAN_OPTIONS=detect_leaks=0");
+[[nodiscard]] inline Outcome runBenchBlind(const std::vector<std::string>& words) {
+    return runStock("timeout 300 " + benchCommand(words), Modules::Absent, "-u DISPLAY ASAN_OPTIONS=detect_leaks=0");
 }
 
 /// What a JSON file says; null when it cannot be read.

@@ -1,21 +1,31 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What the command line comes to; what it refuses is in ErrorTest.cpp.
+// What the command line comes to, and what it refuses; methods by their names; the frames of a continuous flight.
 
+#include "ContinuousPath.h"
+#include "CullMethod.h"
+#include "Failure.h"
 #include "Settings.h"
 
-#include <gtest/gtest.h>
+#include <osgAnalyticBin/CullOptions.h>
 
+#include <gtest/gtest.h>
+#include <osg/Math>
+
+#include <algorithm>
+#include <cmath>
 #include <string>
-#include <utility>
+#include <support/FailureText.h>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
 namespace {
 
-Settings settingsOf(std::vector<std::string> words) {
-    words.insert(words.begin(), {"osgbinbench", "earth.osgb"});
+using Words = std::vector<std::string>;
+
+Settings settingsOf(Words words) {
+    words.insert(words.begin(), "osgbinbench");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     Settings settings;
@@ -23,33 +33,182 @@ Settings settingsOf(std::vector<std::string> words) {
     return settings;
 }
 
-Settings settingsFrom(std::vector<std::string> words) {
-    words.insert(words.begin(), {"--path", "p.csv"});
-    return settingsOf(std::move(words));
+Settings settingsWith(const Words& options) {
+    Words words{"earth.osgb", "--path", "p.csv"};
+    words.insert(words.end(), options.begin(), options.end());
+    return settingsOf(words);
 }
 
-TEST(Settings, ComparesTheDefaultOptionsWithStockOsg) {
-    EXPECT_EQ(settingsFrom({}).methods, (std::vector<std::string>{"sphere", "cluster", "bins"}));
+TEST(Settings, HaveTheirDefaults) {
+    EXPECT_EQ(settingsWith({}).methods, (Words{"sphere", "cluster", "bins"}));
+    // a page for the path around the database, where there are poses to show
+    EXPECT_EQ(settingsWith({}).report, "");
+    EXPECT_EQ(settingsWith({"--report", "page.html"}).report, "page.html");
+    EXPECT_EQ(settingsOf({"earth.osgb"}).report, "report.html");
+    EXPECT_EQ(settingsOf({"earth.osgb", "--frames", "10"}).report, "");
+    // methods without bins keep tiles as long as bins
+    EXPECT_EQ(settingsWith({}).expiry, CullOptions::kDefaultExpiry);
+    EXPECT_EQ(settingsWith({"--options", "expiry=7"}).expiry, 7.0);
+    EXPECT_EQ(settingsWith({"--expiry", "osg"}).expiry, 0.0);
+    EXPECT_EQ(settingsWith({"--expiry", "5", "--options", "expiry=7"}).expiry, 5.0);
+    EXPECT_EQ(settingsWith({}).flush, defaultFlush());
+    EXPECT_EQ(settingsWith({"--flush", "0"}).flush, 0);
 }
 
-TEST(Settings, APageIsWrittenOnRequestAndForThePathAroundTheDatabase) {
-    EXPECT_EQ(settingsFrom({}).report, "");
-    EXPECT_EQ(settingsFrom({"--report", "page.html"}).report, "page.html");
-    EXPECT_EQ(settingsOf({}).report, "report.html");
-    EXPECT_EQ(settingsOf({"--report", "page.html"}).report, "page.html");
-    EXPECT_EQ(settingsOf({"--frames", "10"}).report, "") << "no poses to show";
+TEST(Settings, WrongOnesNameTheOption) {
+    const std::pair<Words, const char*> cases[] = {
+        {{"--methods", "sphere,cube"}, "unknown method \"cube\""},
+        {{"--methods", "sphere+horizon"}, "unknown method \"sphere+horizon\""},
+        {{"--options", "horizon=off"}, "--options: leave +horizon out"},
+        {{"--options", "edges=off"}, "--options: name methods with or without"},
+        {{"--options", "occlusion=on"}, "--options: name methods with or without +occlusion"},
+        {{"--options", "horizont=3"}, "--options: unknown parameter"},
+        {{"--options", "method=paper"}, "--options: "},
+        {{"--size", "640"}, "--size: \"640\""},
+        {{"--size", "640x480x3"}, "--size: "},
+        {{"--threading", "Many"}, "--threading: unknown model \"Many\""},
+        {{"--vertical-scale", "0"}, "--vertical-scale"},
+        {{"--vertical-scale", "nan"}, "--vertical-scale"},
+        {{"--frame-rate", "nan"}, "--frame-rate"},
+        {{"--timeout", "nan"}, "--timeout"},
+        {{"--expiry", "nan"}, "--expiry"},
+        {{"--expiry", "own"}, "--expiry: own"},
+        {{"--flush", "-1"}, "--flush"},
+        {{"--frames", "10", "--pictures", "pictures"}, "--pictures: "},
+        {{"--jumps", "--report", "page.html"}, "--report: "},
+        {{"--draw"}, "--draw: "},
+        {{"--csv", "/absent/p.csv"}, "--csv: there is no folder"}};
+    for (const auto& [words, what] : cases) {
+        const std::string error = test::failureOf([&options = words] { (void)settingsWith(options); });
+        EXPECT_NE(error.find(what), std::string::npos) << what << " is not in " << error;
+    }
+    const std::string error = test::failureOf([] { (void)settingsOf({"reprot"}); });
+    EXPECT_NE(error.find("the commands are report and scale"), std::string::npos) << error;
 }
 
-TEST(Settings, MethodsWithoutBinsKeepTilesAsLongAsBinsUnlessToldOtherwise) {
-    EXPECT_EQ(settingsFrom({}).expiry, CullOptions::kDefaultExpiry);
-    EXPECT_EQ(settingsFrom({"--options", "expiry=7"}).expiry, 7.0);
-    EXPECT_EQ(settingsFrom({"--expiry", "osg"}).expiry, 0.0);
-    EXPECT_EQ(settingsFrom({"--expiry", "5", "--options", "expiry=7"}).expiry, 5.0);
+using support::Failure;
+
+std::vector<std::string> namesOf(const std::vector<CullMethod>& methods) {
+    std::vector<std::string> names;
+    for (const CullMethod& method : methods) names.push_back(method.name);
+    return names;
 }
 
-TEST(Settings, FlushesMoreThanTheCachesHoldUnlessToldOtherwise) {
-    EXPECT_EQ(settingsFrom({}).flush, defaultFlush());
-    EXPECT_EQ(settingsFrom({"--flush", "0"}).flush, 0);
+// What the kit makes of the parameters in the name of a scene.
+CullOptions optionsOf(const std::string& method, const std::string& binOptions = {}) {
+    const std::string scene = cullMethodFromName(method).sceneName("earth.osgb", binOptions);
+    const std::size_t begin = scene.find(".(") + 2;
+    std::string error;
+    const auto options = cullOptionsFromText(scene.substr(begin, scene.find(").analyticbin") - begin), error);
+    EXPECT_TRUE(options) << scene << ": " << error;
+    return options.value_or(CullOptions());
+}
+
+TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnceAndTheOracleAfterWhatItRepeats) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(namesOf(cullMethodsFromNames({"cluster", "exact", "none", "cluster", "exact+horizon"})),
+              (Names{"none", "cluster", "exact", "exact+horizon"}));
+    const std::vector<CullMethod> methods = cullMethodsFromNames({"oracle", "sphere", "exact+horizon+edges"});
+    EXPECT_EQ(namesOf(methods), (Names{"none", "exact+horizon+edges", "oracle", "sphere"}));
+    EXPECT_TRUE(methods[2].replaysVerdicts);
+    EXPECT_FALSE(methods[1].replaysVerdicts);
+    EXPECT_EQ(methods[2].sceneName("earth.osgb", {}), methods[1].sceneName("earth.osgb", {}));
+    const Names all = namesOf(cullMethodsFromNames({"exact", "all"}));
+#ifdef OSGANALYTICBIN_RESEARCH
+    EXPECT_EQ(all.size(), 21U);
+#else
+    EXPECT_EQ(all.size(), 12U);
+#endif
+    EXPECT_EQ(all[1], "exact") << "each once, in the order given";
+    for (const char* const name : {"sphere", "cluster", "exact+horizon+edges", "exact+horizon+edges+occlusion"})
+        EXPECT_EQ(std::count(all.begin(), all.end(), name), 1) << name;
+}
+
+TEST(CullMethod, PlainNamesCullByPlanesAloneAndSuffixesAddTheirTests) {
+    const struct {
+        const char* suffix;
+        HorizonUse horizon;
+        bool edges;
+        OcclusionUse occlusion = OcclusionUse::Off;
+        const char* options = "";
+    } cases[] = {{"", HorizonUse::Off, false, OcclusionUse::Off, "horizon=-5"},
+                 {"+horizon", HorizonUse::Declared, false},
+                 {"+edges", HorizonUse::Off, true},
+                 {"+horizon+edges", HorizonUse::Given, true, OcclusionUse::Off, "horizon=-5,skirts=all"},
+                 {"+horizon+edges+occlusion", HorizonUse::Declared, true, OcclusionUse::On},
+                 {"+horizon+occlusion", HorizonUse::Declared, false, OcclusionUse::On}};
+    for (const std::string base : {"quadratic", "exact"}) {
+        for (const auto& each : cases) {
+            const CullOptions options = optionsOf(base + each.suffix, each.options);
+            EXPECT_EQ(options.horizonUse, each.horizon) << base << each.suffix;
+            EXPECT_EQ(options.edges, each.edges) << base << each.suffix;
+            EXPECT_EQ(options.occlusion, each.occlusion) << base << each.suffix;
+            EXPECT_EQ(options.method, base == "exact" ? Method::Exact : Method::Quadratic);
+            if (each.horizon == HorizonUse::Given) {
+                EXPECT_EQ(options.horizon, -5.0);
+                EXPECT_EQ(options.skirts, SkirtUse::All);
+            }
+        }
+    }
+    // "bins" are those that users have
+    CullOptions defaults;
+    defaults.index = IndexUse::On;  // what becomes complete meanwhile would change the figures
+    EXPECT_EQ(optionsOf("bins"), defaults);
+    EXPECT_EQ(optionsOf("bins", "skirts=all").skirts, SkirtUse::All);
+    EXPECT_TRUE(cullMethodFromName("bins").usesBins);
+}
+
+TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
+    for (const char* const name :
+         {"spheres", "sphere+horizon", "exact+raster", "oracle+horizon", "exact+edges+horizon", "exact+horizon+horizon",
+          "exact+", "+horizon", "", "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges",
+          "bins+horizon", "orientedboxes"})
+        EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
+}
+
+constexpr double kTolerance = 1e-12;
+
+flight::CameraPose poseAt(double latDeg, double lonDeg, double altitude, double time = 0.0) {
+    const double longitude = osg::DegreesToRadians(lonDeg);
+    flight::CameraPose pose{
+        "p", {osg::DegreesToRadians(latDeg), longitude, altitude}, {0.1, longitude, 0.0}, 1.0, 10.0, 1000.0};
+    pose.time = time;
+    return pose;
+}
+
+TEST(ContinuousPath, ReachesThePosesAtTheirTimes) {
+    for (const double middle : {6.0, 7.0}) {
+        const std::vector<flight::CameraPose> path{poseAt(10, 20, 1000, 5.0), poseAt(30, 40, 4000, middle),
+                                                   poseAt(50, 60, 500, 9.0)};
+        const auto frames = continuousPath(path, 5);
+        ASSERT_EQ(frames.size(), 5U);
+        const std::size_t places[] = {0, static_cast<std::size_t>(middle) - 5, 4};
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(frames[places[i]].eye.latitude, path[i].eye.latitude, kTolerance);
+            EXPECT_NEAR(frames[places[i]].eye.longitude, path[i].eye.longitude, kTolerance);
+            EXPECT_NEAR(frames[places[i]].eye.altitude, path[i].eye.altitude, 1e-9);
+            EXPECT_NEAR(frames[places[i]].time, path[i].time, kTolerance);
+        }
+    }
+}
+
+TEST(ContinuousPath, ClimbsByEqualRatiosRollsAndStepsAsideAndCrossesTheDateLineTheShortWay) {
+    std::vector<flight::CameraPose> path{poseAt(0, 170, 1000, 0.0), poseAt(0, -170, 4000, 1.0)};
+    path[0].roll = -0.5;
+    path[1].roll = 1.5;
+    path[1].eyeRight = 8.0;
+    const auto frames = continuousPath(path, 5);
+    EXPECT_NEAR(frames[2].eye.altitude, 2000.0, 1e-9);
+    EXPECT_NEAR(std::cos(frames[2].eye.longitude), -1.0, kTolerance);
+    EXPECT_NEAR(frames[1].roll, 0.0, kTolerance);
+    EXPECT_NEAR(frames[1].eyeRight, 2.0, kTolerance);
+}
+
+TEST(ContinuousPath, TakesOnePoseOrOneFrame) {
+    EXPECT_EQ(continuousPath({poseAt(1, 2, 3)}, 4).size(), 4U);
+    const auto frames = continuousPath({poseAt(10, 20, 1000), poseAt(30, 40, 4000)}, 1);
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_NEAR(frames[0].eye.altitude, 1000.0, 1e-9);
 }
 
 }  // namespace

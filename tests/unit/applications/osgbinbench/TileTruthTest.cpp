@@ -55,46 +55,40 @@ TEST(OccluderDepth, GrowsOnlyByWhatIsBeforeItsOwnHorizon) {
     EXPECT_EQ(occluderDepth({bin(0.0, 100.0)}, earth(), eye), 0.0);
 }
 
-TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
-    const std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2),
-                                               tileAt("behind", -0.5, -4), tileAt("antipode", -0.5, 40)};
-    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+// From 20 km above 0 N 0 E towards the east.
+osg::ref_ptr<osg::Camera> cameraAhead() {
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
     camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
-    TileTruth truth;
-    const flight::Globe globe{kModel, osg::Matrixd()};
-    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe).keys, std::set<std::string>{"ahead"});
-    // A globe that is moved takes its camera along.
-    const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
-    std::vector<flight::DrawnTile> movedTiles = tiles;
-    for (flight::DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
-    camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
-    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}).keys, std::set<std::string>{"ahead"});
+    return camera;
 }
 
-AnalyticBin binAt(double southDeg, double westDeg, double low, double high) {
-    return AnalyticBin(GeodeticBin::fromDegrees({southDeg, southDeg + 1}, {westDeg, westDeg + 1}, {low, high}));
+TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
+    std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2), tileAt("behind", -0.5, -4),
+                                         tileAt("antipode", -0.5, 40)};
+    const auto camera = cameraAhead();
+    EXPECT_EQ(TileTruth().neededTiles(tiles, *camera, {kModel, osg::Matrixd()}).keys, std::set<std::string>{"ahead"});
+    // A globe that is moved takes its camera along.
+    const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
+    for (flight::DrawnTile& tile : tiles) tile.meshes[0].localToWorld = moved;
+    camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
+    EXPECT_EQ(TileTruth().neededTiles(tiles, *camera, {kModel, moved}).keys, std::set<std::string>{"ahead"});
 }
 
 TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
-    const std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2),
-                                               tileAt("far", -0.5, 8)};
-    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
-    camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
-    const flight::Globe globe{kModel, osg::Matrixd()};
+    std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2), tileAt("far", -0.5, 8)};
     TileTruth truth;
-    const NeededTiles bySurface = truth.neededTiles(tiles, *camera, globe);
-    EXPECT_EQ(bySurface.keys, std::set<std::string>{"ahead"});
-    EXPECT_EQ(bySurface.hidden, 1U);
+    const auto expectNeeded = [&](const std::set<std::string>& keys, std::uint64_t hidden) {
+        const NeededTiles needed = truth.neededTiles(tiles, *cameraAhead(), {kModel, osg::Matrixd()});
+        EXPECT_EQ(needed.keys, keys);
+        EXPECT_EQ(needed.hidden, hidden);
+    };
+    expectNeeded({"ahead"}, 1U);
     // What finer descendants of "far" have in store rises above the horizon; "mountain" stays beside the frustum.
-    std::vector<flight::DrawnTile> withBins = tiles;
-    withBins[1].bin = binAt(1.5, 2, -500, 500);
-    withBins[2].bin = binAt(-0.5, 8, -500, 50000);
-    truth.learnBins(withBins);
-    const NeededTiles byBin = truth.neededTiles(tiles, *camera, globe);
-    EXPECT_EQ(byBin.keys, (std::set<std::string>{"ahead", "far"}));
-    EXPECT_EQ(byBin.hidden, 0U);
+    tiles[1].bin = AnalyticBin(GeodeticBin::fromDegrees({1.5, 2.5}, {2, 3}, {-500, 500}));
+    tiles[2].bin = AnalyticBin(GeodeticBin::fromDegrees({-0.5, 0.5}, {8, 9}, {-500, 50000}));
+    truth.learnBins(tiles);
+    expectNeeded({"ahead", "far"}, 0U);
 }
 
 // A camera like the view, whose planes near and far it needs.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Verdicts of a view, repeated without tests; no window is needed. The program's own run is in ProgramTest.cpp.
+// Verdicts of a view, repeated without tests, below nodes that choose their children and for drawables that are culled
+// by themselves; no window is needed. The program's own run is in ProgramTest.cpp.
 
 #include "Failure.h"
 #include "VerdictReplay.h"
@@ -15,67 +16,35 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
-struct View {
-    explicit View(osg::Node& scene) {
+osg::ref_ptr<osg::Drawable> ballAt(double y) {
+    return new osg::ShapeDrawable(new osg::Sphere(osg::Vec3d(0.0, y, 0.0), 1.0F));
+}
+
+TEST(VerdictReplay, DrawsWhatWasDrawnWhereverTheCameraLooks) {
+    const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    for (const double y : {0.0, 50.0}) {
+        lod->addChild(ballAt(y), 0.0F, 1e10F);
+        geode->addDrawable(ballAt(y));
+    }
+    for (osg::Node* scene : {static_cast<osg::Node*>(lod), static_cast<osg::Node*>(geode)}) {
+        const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
         camera->setViewport(new osg::Viewport(0, 0, 320, 240));
         camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        camera->addChild(&scene);
+        camera->setViewMatrixAsLookAt(osg::Vec3d(100, 0, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1));
+        camera->addChild(scene);
+        const osg::ref_ptr<osg::FrameStamp> frameStamp = new osg::FrameStamp;
+        const auto seenAt = [&](double fovDeg) {
+            camera->setProjectionMatrixAsPerspective(fovDeg, 4.0 / 3.0, 1.0, 1e9);
+            return flight::TileCensus::take(*camera, *frameStamp);
+        };
+        const flight::Census wide = seenAt(120.0), narrow = seenAt(5.0);
+        ASSERT_EQ(narrow.drawables, 1U);
+        EXPECT_THROW(requireSameTiles(wide, narrow, "pose"), support::Failure);
+        replayVerdicts(*camera, *frameStamp);
+        EXPECT_NO_THROW(requireSameTiles(seenAt(120.0), narrow, "pose"));
+        EXPECT_EQ(seenAt(120.0).nodes, 2U) << "the root and one drawable";
     }
-
-    void look(const osg::Vec3d& eye, double fovDeg) const {
-        camera->setViewMatrixAsLookAt(eye, {}, osg::Vec3d(0, 0, 1));
-        camera->setProjectionMatrixAsPerspective(fovDeg, 4.0 / 3.0, 1.0, 1e9);
-    }
-
-    [[nodiscard]] flight::Census census() const { return flight::TileCensus::take(*camera, *frameStamp); }
-
-    osg::ref_ptr<osg::Camera> camera{new osg::Camera};
-    osg::ref_ptr<osg::FrameStamp> frameStamp{new osg::FrameStamp};
-};
-
-osg::ref_ptr<osg::Geode> ballAt(const osg::Vec3& middle) {
-    osg::ref_ptr<osg::Geode> ball = new osg::Geode;
-    ball->addDrawable(new osg::ShapeDrawable(new osg::Sphere(middle, 1.0F)));
-    return ball;
-}
-
-TEST(VerdictReplay, RejectsBelowNodesThatChooseTheirChildren) {
-    const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-    lod->addChild(ballAt({}), 0.0F, 1e10F);
-    lod->addChild(ballAt({0, 50, 0}), 0.0F, 1e10F);
-    const View view(*lod);
-    view.look({100, 0, 0}, 5.0);
-    ASSERT_EQ(view.census().drawables, 1U);
-    replayVerdicts(*view.camera, *view.frameStamp);
-    view.look({100, 0, 0}, 120.0);
-    EXPECT_EQ(view.census().drawables, 1U);
-}
-
-TEST(VerdictReplay, RejectsDrawablesThatAreCulledByThemselves) {
-    const osg::ref_ptr<osg::Geode> balls = ballAt({});
-    balls->addDrawable(new osg::ShapeDrawable(new osg::Sphere({0, 50, 0}, 1.0F)));
-    const View view(*balls);
-    view.look({100, 0, 0}, 5.0);
-    ASSERT_EQ(view.census().drawables, 1U);
-    replayVerdicts(*view.camera, *view.frameStamp);
-    view.look({100, 0, 0}, 120.0);
-    const flight::Census replay = view.census();
-    EXPECT_EQ(replay.drawables, 1U);
-    EXPECT_EQ(replay.nodes, 2U) << "the geode and one drawable";
-}
-
-TEST(VerdictReplay, IsComparedWithWhatItRepeats) {
-    flight::Census original;
-    original.drawables = 2;
-    original.tiles.resize(1);
-    original.tiles[0].key = "0/1";
-    EXPECT_NO_THROW(requireSameTiles(original, original, "pose"));
-    flight::Census replay = original;
-    replay.tiles[0].key = "0/2";
-    EXPECT_THROW(requireSameTiles(replay, original, "pose"), support::Failure);
-    replay = original;
-    replay.drawables = 1;
-    EXPECT_THROW(requireSameTiles(replay, original, "pose"), support::Failure);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <ostream>
 #include <sstream>
 #include <string>
 #include <support/TemporaryFolder.h>
+#include <tuple>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -25,46 +25,45 @@ constexpr const char* kSamplePath =
     "oblique,58,-20,100000,59,-19,0,60,20000,2000000\n"
     "level,58,-20,9000,62,-19,3000,60,500,700000\n";
 
-class VpbSample : public testing::TestWithParam<const char*> {
+class Vpb : public testing::Test {
 protected:
     void SetUp() override {
-        database = std::string(SAMPLE_DATA) + "/vpb/" + GetParam() + "/earth.osgb";
-        if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
         if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
+        if (!std::filesystem::exists(databaseOf("terrain"))) GTEST_SKIP() << "needs " << SAMPLE_DATA;
+    }
+    static std::string databaseOf(const std::string& mode) { return SAMPLE_DATA "/vpb/" + mode + "/earth.osgb"; }
+
+    // Returns: the sums.
+    [[nodiscard]] nlohmann::json run(const std::string& mode, const std::string& path,
+                                     const std::vector<std::string>& more) const {
+        std::vector<std::string> words{databaseOf(mode), "--path", path,     "--repeats",         "1",
+                                       "--flush",        "0",      "--json", folder / "sums.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const test::Outcome outcome = test::runBench(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return test::jsonFile(folder / "sums.json");
     }
 
-    std::string database;
-};
+    static void expectNothingLost(const nlohmann::json& method) {
+        EXPECT_EQ(method["false_culls"], 0);
+        EXPECT_EQ(method["differing_pixels"], 0);
+    }
 
-TEST_P(VpbSample, StockMethodsDifferInWhatTheyDrawAndAskFor) {
     const TemporaryFolder folder;
-    const std::string file = folder / "sums.json";
-    const test::Outcome outcome =
-        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
-                       " --methods sphere,cluster --size 320x240 --repeats 1 --flush 0 --json " + test::quoted(file));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const nlohmann::json methods = test::jsonFile(file)["methods"];
-    for (const char* const key : {"drawn_tiles", "triangles", "paged_lods", "files_requested", "bytes"}) {
-        // Nothing but the cluster callbacks, those of later pages among them, tells sphere and cluster apart.
-        EXPECT_LT(methods["sphere"][key], methods["none"][key]) << key;
-        EXPECT_LT(methods["cluster"][key], methods["sphere"][key]) << key;
-    }
-    EXPECT_EQ(methods["sphere"]["false_culls"], 0);
-    EXPECT_EQ(methods["sphere"]["differing_pixels"], 0);
-    EXPECT_LE(methods["none"]["visible_tiles"], methods["none"]["truth_tiles"]);
-}
-
-INSTANTIATE_TEST_SUITE_P(Modes, VpbSample, testing::Values("terrain", "polygonal"),
-                         [](const auto& mode) { return std::string(mode.param); });
-
-struct PictureCase {
-    const char* mode;
-    const char* threading;
-    int scale;
 };
 
-std::ostream& operator<<(std::ostream& out, const PictureCase& each) {
-    return out << each.mode << " x" << each.scale << ' ' << each.threading;
+TEST_F(Vpb, StockMethodsDifferInWhatTheyDrawAndAskFor) {
+    const std::string path = folder.write("p.csv", kSamplePath);
+    for (const char* const mode : {"terrain", "polygonal"}) {
+        const nlohmann::json methods = run(mode, path, {"--methods", "sphere,cluster", "--size", "320x240"})["methods"];
+        for (const char* const key : {"drawn_tiles", "triangles", "paged_lods", "files_requested", "bytes"}) {
+            // Nothing but the cluster callbacks, those of later pages among them, tells sphere and cluster apart.
+            EXPECT_LT(methods["sphere"][key], methods["none"][key]) << mode << ' ' << key;
+            EXPECT_LT(methods["cluster"][key], methods["sphere"][key]) << mode << ' ' << key;
+        }
+        expectNothingLost(methods["sphere"]);
+        EXPECT_LE(methods["none"]["visible_tiles"], methods["none"]["truth_tiles"]);
+    }
 }
 
 // Every fourth pose of the path; with exaggerated mountains eyes below 30 km are lifted above them.
@@ -90,56 +89,29 @@ std::string shortPath(int scale) {
     return text;
 }
 
-class VpbPictures : public testing::TestWithParam<PictureCase> {};
-
-TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
-    const std::string database = std::string(SAMPLE_DATA) + "/vpb/" + GetParam().mode + "/earth.osgb";
-    if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const TemporaryFolder folder;
-    const std::string file = folder / "sums.json";
-    const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
-    const test::Outcome outcome = test::runBench(
-        test::quoted(database) + " --path " + test::quoted(path) + " --methods exact+horizon+edges --size 480x270" +
-        " --repeats 1 --flush 0 --threading " + GetParam().threading + " --vertical-scale " +
-        std::to_string(GetParam().scale) + " --json " + test::quoted(file));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const nlohmann::json sums = test::jsonFile(file);
-    EXPECT_GE(sums["poses"], 12);
-    const nlohmann::json& exact = sums["methods"]["exact+horizon+edges"];
-    EXPECT_EQ(exact["differing_pixels"], 0);
-    EXPECT_EQ(exact["false_culls"], 0);
-    EXPECT_LT(exact["drawn_tiles"].get<double>(), 0.12 * sums["methods"]["none"]["drawn_tiles"].get<double>());
-}
-
 // Threads differ in when they cull, not in what: the soak test compares pictures in every threading model.
-std::vector<PictureCase> pictureCases() {
-    return {{"terrain", "SingleThreaded", 1},
-            {"terrain", "CullThreadPerCameraDrawThreadPerContext", 3},
-            {"polygonal", "DrawThreadPerContext", 1}};
+TEST_F(Vpb, PicturesWithBinsAreThoseWithoutCulling) {
+    for (const auto& [mode, threading, scale] : {std::tuple("terrain", "SingleThreaded", 1),
+                                                 {"terrain", "CullThreadPerCameraDrawThreadPerContext", 3},
+                                                 {"polygonal", "DrawThreadPerContext", 1}}) {
+        SCOPED_TRACE(std::string(mode) + " x" + std::to_string(scale));
+        const nlohmann::json sums = run(mode, folder.write("p.csv", shortPath(scale)),
+                                        {"--methods", "exact+horizon+edges", "--size", "480x270", "--threading",
+                                         threading, "--vertical-scale", std::to_string(scale)});
+        EXPECT_GE(sums["poses"], 12);
+        const nlohmann::json& exact = sums["methods"]["exact+horizon+edges"];
+        expectNothingLost(exact);
+        EXPECT_LT(exact["drawn_tiles"].get<double>(), 0.12 * sums["methods"]["none"]["drawn_tiles"].get<double>());
+    }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, VpbPictures, testing::ValuesIn(pictureCases()), [](const auto& each) {
-    return std::string(each.param.mode) + std::to_string(each.param.scale) + each.param.threading;
-});
-
-TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
-    const std::string database = std::string(SAMPLE_DATA) + "/vpb/terrain/earth.osgb";
-    if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
-    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
-    const TemporaryFolder folder;
-    const std::string file = folder / "sums.json";
-    const test::Outcome outcome =
-        test::runBench(test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
-                       " --vertical-scale 10 --methods cluster,exact+horizon+edges --size 640x360 --repeats 1 "
-                       "--flush 0 --json " +
-                       test::quoted(file));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const nlohmann::json methods = test::jsonFile(file)["methods"];
+TEST_F(Vpb, ClusterCallbacksCullWhatIsSeenOfExaggeratedTerrainAndBinsDoNot) {
+    const nlohmann::json methods =
+        run("terrain", VPB_EXAGGERATED_PATH_FILE,
+            {"--vertical-scale", "10", "--methods", "cluster,exact+horizon+edges", "--size", "640x360"})["methods"];
     EXPECT_GE(methods["cluster"]["false_culls"], 5);
     EXPECT_GE(methods["cluster"]["differing_pixels"], 500);
-    EXPECT_EQ(methods["exact+horizon+edges"]["false_culls"], 0);
-    EXPECT_EQ(methods["exact+horizon+edges"]["differing_pixels"], 0);
+    expectNothingLost(methods["exact+horizon+edges"]);
 }
 
 }  // namespace

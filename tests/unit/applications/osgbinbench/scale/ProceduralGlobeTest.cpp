@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "ProceduralGlobe.h"
+#include "ProceduralTerrain.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
@@ -14,6 +15,7 @@
 #include <TileFixture.h>
 #include <TileNode.h>
 #include <algorithm>
+#include <cmath>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::globe {
@@ -24,11 +26,12 @@ using osgbindem::TileId;
 
 constexpr int kCells = 6;
 
-GlobeOptions deepGlobe() {
+ProceduralGlobe globeWith(int levels, int cells = kCells, bool bins = true) {
     GlobeOptions options;
-    options.levels = GlobeOptions::kMostLevels;
-    options.cells = kCells;
-    return options;
+    options.levels = levels;
+    options.cells = cells;
+    options.bins = bins;
+    return ProceduralGlobe(options);
 }
 
 // A tile as it is paged in.
@@ -71,27 +74,36 @@ std::vector<TileId> someTiles(test::Random& random, int level) {
     return tiles;
 }
 
-// Of a level, in the three rows next to each pole.
-std::vector<TileId> tilesAtThePoles(int level) {
-    const int rows = TileId{level, 0, 0}.rows();
-    std::vector<TileId> tiles;
-    for (const int y : {0, 1, 2, rows - 3, rows - 2, rows - 1})
-        for (const int x : {0, 1}) tiles.push_back({level, x, y});
-    return tiles;
+// Skirts are as deep as that.
+TEST(ProceduralTerrain, HeightsBetweenPostsAreAsNearToTheLineAsItSays) {
+    constexpr double kDegrees = 57.29577951308232;
+    const ProceduralTerrain terrain(8000.0);
+    test::Random random(8104);
+    for (int i = 0; i < 2000; ++i) {
+        const double spacing = random.logUniform(1e-8, 0.1);
+        const osgbindem::PositionDeg from{random.uniform(-80.0, 80.0), random.uniform(-180.0, 170.0)};
+        const auto heightAt = [&](double share) {
+            osgbindem::PositionDeg at = from;
+            (i % 2 ? at.latitudeDeg : at.longitudeDeg) += share * spacing * kDegrees;
+            return terrain.height(at);
+        };
+        const double share = random.uniform(0.0, 1.0);
+        const double line = (1.0 - share) * heightAt(0.0) + share * heightAt(1.0);
+        ASSERT_LE(std::abs(heightAt(share) - line), terrain.interpolationError(spacing) + 1e-6) << spacing;
+    }
 }
 
 TEST(ProceduralGlobe, NeighboursShareTheirEdgesToTheLastBit) {
-    const ProceduralGlobe globe(deepGlobe());
+    const ProceduralGlobe globe = globeWith(GlobeOptions::kMostLevels);
     test::Random random(8201);
     for (const int level : {0, 1, 4, 7, 12, 18, 24}) {
         for (const TileId& tile : someTiles(random, level)) {
             const osg::ref_ptr<osg::Node> node = nodeOf(globe, tile);
-            const osg::ref_ptr<osg::Node> east = nodeOf(globe, *tile.neighbour(Edge::East));
-            EXPECT_EQ(edgeOf(*node, Edge::East), edgeOf(*east, Edge::West)) << level;
-            const auto northern = tile.neighbour(Edge::North);
-            if (!northern) continue;
-            const osg::ref_ptr<osg::Node> north = nodeOf(globe, *northern);
-            EXPECT_EQ(edgeOf(*node, Edge::North), edgeOf(*north, Edge::South)) << level;
+            for (const auto& [edge, opposite] : {std::pair(Edge::East, Edge::West), {Edge::North, Edge::South}}) {
+                const auto neighbour = tile.neighbour(edge);
+                if (!neighbour) continue;
+                EXPECT_EQ(edgeOf(*node, edge), edgeOf(*nodeOf(globe, *neighbour), opposite)) << level;
+            }
         }
     }
 }
@@ -107,24 +119,13 @@ void expectBinHoldsTriangles(const ProceduralGlobe& globe, const TileId& tile, i
         << tile.level << ' ' << tile.x << ' ' << tile.y;
 }
 
-TEST(ProceduralGlobe, BinsHoldEveryTriangle) {
-    const ProceduralGlobe globe(deepGlobe());
+TEST(ProceduralGlobe, BinsHoldEveryTriangleAndTheBinsOfTheChildrenAndAreTight) {
+    const ProceduralGlobe globe = globeWith(GlobeOptions::kMostLevels);
     test::Random random(8202);
-    for (const int level : {0, 1, 3, 7, 12, 18, 24})
-        for (const TileId& tile : someTiles(random, level)) expectBinHoldsTriangles(globe, tile, kCells);
-    GlobeOptions options;
-    options.levels = 9;
-    options.cells = 2;
-    const ProceduralGlobe coarse(options);
-    for (int level = 0; level <= options.levels; ++level)
-        for (const TileId& tile : tilesAtThePoles(level)) expectBinHoldsTriangles(coarse, tile, options.cells);
-}
-
-TEST(ProceduralGlobe, BinsHoldThoseOfTheChildren) {
-    const ProceduralGlobe globe(deepGlobe());
-    test::Random random(8203);
-    for (int level = 0; level < 24; ++level) {
+    for (int level = 0; level <= 24; ++level) {
         for (const TileId& tile : someTiles(random, level)) {
+            if (level % 3 < 2) expectBinHoldsTriangles(globe, tile, kCells);
+            if (level == 24) continue;
             const AnalyticBin bin = AnalyticBin::fromText(globe.binOf(tile).toText());
             const osg::ref_ptr<osg::Node> children = globe.children(tile);
             for (unsigned int i = 0; i < 4; ++i)
@@ -132,27 +133,28 @@ TEST(ProceduralGlobe, BinsHoldThoseOfTheChildren) {
                     << level << ' ' << tile.x << ' ' << tile.y;
         }
     }
-}
-
-TEST(ProceduralGlobe, BinsAreTight) {
-    const ProceduralGlobe globe(deepGlobe());
     // 2.4 m wide: the bin is hardly taller than the terrain is steep.
     const AnalyticBin bin = globe.binOf({20, 8800000, 6300000});
     EXPECT_LT(bin.bin().altitude().width(), 6.0);
     EXPECT_LT(bin.margin(), 0.01);
+    // Coarse tiles in the three rows next to each pole.
+    const ProceduralGlobe coarse = globeWith(9, 2);
+    for (int level = 0; level <= 9; ++level) {
+        const int rows = TileId{level, 0, 0}.rows();
+        for (const int y : {0, 1, 2, rows - 3, rows - 2, rows - 1})
+            for (const int x : {0, 1}) expectBinHoldsTriangles(coarse, {level, x, y}, 2);
+    }
 }
 
 TEST(ProceduralGlobe, SkirtsReachBelowTheEdgesOfCoarserAndFinerNeighbours) {
-    const ProceduralGlobe globe(deepGlobe());
+    const ProceduralGlobe globe = globeWith(GlobeOptions::kMostLevels);
     test::Random random(8204);
     for (const int level : {1, 4, 10, 18}) {
         for (int i = 0; i < 10; ++i) {
             const TileId tile{level, 2 * random.integer(0, (16 << level) / 2 - 1), random.integer(1, (8 << level) - 2)};
             // Along the parent's western edge a neighbour of the parent's level may stand.
-            const osg::ref_ptr<osg::Node> own = nodeOf(globe, tile);
-            const osg::ref_ptr<osg::Node> coarse = nodeOf(globe, *tile.ancestor(level - 1).neighbour(Edge::West));
-            const auto posts = edgeOf(*own, Edge::West);
-            const auto line = edgeOf(*coarse, Edge::East);
+            const auto posts = edgeOf(*nodeOf(globe, tile), Edge::West);
+            const auto line = edgeOf(*nodeOf(globe, *tile.ancestor(level - 1).neighbour(Edge::West)), Edge::East);
             const int first = tile.y % 2 == 0 ? 0 : kCells / 2;
             for (int k = 1; k < kCells; k += 2) {
                 const auto at = static_cast<std::size_t>(first + k / 2);
@@ -163,43 +165,31 @@ TEST(ProceduralGlobe, SkirtsReachBelowTheEdgesOfCoarserAndFinerNeighbours) {
     }
 }
 
-TEST(ProceduralGlobe, EndsAtItsDeepestLevel) {
+TEST(ProceduralGlobe, EndsAtItsDeepestLevelAndMayComeWithoutBins) {
+    const ProceduralGlobe globe = globeWith(1);
     GlobeOptions options;
     options.levels = 1;
     options.cells = kCells;
-    const ProceduralGlobe globe(options);
     const osg::ref_ptr<osg::Node> start = nodeOf(globe, {0, 3, 4});
-    const auto* paged = dynamic_cast<const osg::PagedLOD*>(start.get());
-    ASSERT_TRUE(paged);
-    EXPECT_EQ(paged->getFileName(1), childrenFileOf({0, 3, 4}, options));
+    EXPECT_EQ(dynamic_cast<const osg::PagedLOD&>(*start).getFileName(1), childrenFileOf({0, 3, 4}, options));
     const osg::ref_ptr<osg::Node> leaf = nodeOf(globe, {1, 6, 8});
     EXPECT_FALSE(dynamic_cast<const osg::PagedLOD*>(leaf.get()));
     EXPECT_TRUE(storedBin(*leaf).valid());
+    const osg::ref_ptr<osg::Node> bare = globeWith(1, kCells, false).root();
+    EXPECT_FALSE(bare->getUpdateCallback());
+    EXPECT_FALSE(hasStoredBin(*bare->asGroup()->getChild(0)));
 }
 
 TEST(ProceduralGlobe, RootDeclaresAHorizonBelowAllThatIsDrawn) {
-    GlobeOptions options;
-    options.cells = kCells;
-    const ProceduralGlobe globe(options);
-    const osg::ref_ptr<osg::Node> root = globe.root();
+    const osg::ref_ptr<osg::Node> root = globeWith(GlobeOptions().levels).root();
     ASSERT_TRUE(dynamic_cast<osg::CoordinateSystemNode*>(root.get()));
     ASSERT_EQ(root->asGroup()->getNumChildren(), 128U);
-    const auto* request = dynamic_cast<const InstallBinsCallback*>(root->getUpdateCallback());
-    ASSERT_TRUE(request);
-    EXPECT_EQ(request->getCullOptions().horizonUse, HorizonUse::Given);
+    const CullOptions& options = dynamic_cast<const InstallBinsCallback&>(*root->getUpdateCallback()).getCullOptions();
+    EXPECT_EQ(options.horizonUse, HorizonUse::Given);
     for (unsigned int i = 0; i < 128; ++i) {
         const AnalyticBin bin = storedBin(*root->asGroup()->getChild(i));
-        EXPECT_LE(request->getCullOptions().horizon, bin.bin().altitude().lower - bin.margin());
+        EXPECT_LE(options.horizon, bin.bin().altitude().lower - bin.margin());
     }
-}
-
-TEST(ProceduralGlobe, MayComeWithoutBins) {
-    GlobeOptions options;
-    options.cells = kCells;
-    options.bins = false;
-    const osg::ref_ptr<osg::Node> root = ProceduralGlobe(options).root();
-    EXPECT_FALSE(root->getUpdateCallback());
-    EXPECT_FALSE(hasStoredBin(*root->asGroup()->getChild(0)));
 }
 
 }  // namespace

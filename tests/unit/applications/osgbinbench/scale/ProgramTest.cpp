@@ -4,6 +4,8 @@
 //
 // The plugin and the programs as users run them.
 
+#include "BenchProgram.h"
+
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osgDB/ReadFile>
@@ -11,32 +13,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <support/StockPrograms.h>
-#include <support/TemporaryFolder.h>
+#include <support/FailureText.h>
 
 namespace osgAnalyticBin {
 namespace {
 
 using nlohmann::json;
-using test::Modules;
 using test::Outcome;
-using test::TemporaryFolder;
-
-constexpr const char* kQuiet = "ASAN_OPTIONS=detect_leaks=0";
-
-Outcome runScale(const std::string& arguments) {
-    return test::runStock("timeout 300 " + test::quoted(BENCH_FILE) + " scale " + arguments, Modules::Absent, kQuiet);
-}
-
-json jsonFile(const std::string& file) {
-    return json::parse(test::textOfFile(file), nullptr, false);
-}
 
 // Needs OSG_LIBRARY_PATH.
-TEST(GlobePlugin, OpensByNameAloneAndBelowTheBins) {
+TEST(GlobePlugin, OpensByNameAloneAndBelowTheBinsAndSaysWhatIsWrong) {
     for (const char* const name :
          {"2.proceduralglobe", "(levels=2,cells=4).proceduralglobe", "2.proceduralglobe.(method=exact).analyticbin",
           "1-5-6.(levels=2).proceduralglobe"}) {
@@ -44,24 +31,33 @@ TEST(GlobePlugin, OpensByNameAloneAndBelowTheBins) {
         ASSERT_TRUE(node) << name;
         EXPECT_TRUE(node->getBound().valid()) << name;
     }
-}
-
-TEST(GlobePlugin, SaysWhatIsWrong) {
     osgDB::ReaderWriter::ReadResult result =
         osgDB::Registry::instance()->readNode("(cells=3).proceduralglobe", nullptr);
     EXPECT_FALSE(result.validNode());
     EXPECT_NE(result.message().find("malformed parameter \"cells=3\""), std::string::npos) << result.message();
 }
 
-TEST(ScaleProgram, TheOracleDrawsWhatItRepeats) {
-    const TemporaryFolder folder;
-    const Outcome outcome = runScale(
-        "--series depth,residents --levels 3 --methods bins,oracle --residents 1,300 --poses 3 --cells "
-        "4 "
-        "--rounds 1 --json " +
-        test::quoted(folder / "scale.json"));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const json result = jsonFile(folder / "scale.json");
+class ScaleProgram : public testing::Test {
+protected:
+    static Outcome run(std::vector<std::string> words) {
+        words.insert(words.begin(), "scale");
+        return test::runBenchBlind(words);
+    }
+
+    // A quick run. Returns: what it writes.
+    [[nodiscard]] json measured(std::vector<std::string> words) const {
+        words.insert(words.end(), {"--poses", "3", "--cells", "4", "--rounds", "1", "--json", folder / "scale.json"});
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return test::jsonFile(folder / "scale.json");
+    }
+
+    const test::TemporaryFolder folder;
+};
+
+TEST_F(ScaleProgram, TheOracleDrawsWhatItRepeats) {
+    const json result =
+        measured({"--series", "depth,residents", "--levels", "3", "--methods", "bins,oracle", "--residents", "1,300"});
     for (const char* const series : {"depth", "residents"}) {
         const json& rows = result[series];
         ASSERT_EQ(rows.size() % 2, 0U);
@@ -73,14 +69,9 @@ TEST(ScaleProgram, TheOracleDrawsWhatItRepeats) {
     }
 }
 
-TEST(ScaleProgram, WritesWhatItMeasured) {
-    const TemporaryFolder folder;
-    const Outcome outcome = runScale(
-        "--levels 2,4 --methods none,sphere,exact+horizon+edges --residents 1,600 --memory-tiles 40 --poses 3 "
-        "--cells 4 --rounds 1 --json " +
-        test::quoted(folder / "scale.json") + " --csv " + test::quoted(folder / "scale.csv"));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    const json result = jsonFile(folder / "scale.json");
+TEST_F(ScaleProgram, WritesWhatItMeasured) {
+    const json result = measured({"--levels", "2,4", "--methods", "none,sphere,exact+horizon+edges", "--residents",
+                                  "1,600", "--memory-tiles", "40", "--csv", folder / "scale.csv"});
     ASSERT_EQ(result["depth"].size(), 6U);
     for (const json& row : result["depth"]) {
         EXPECT_GT(row["drawn_tiles"], 0) << row;
@@ -89,12 +80,13 @@ TEST(ScaleProgram, WritesWhatItMeasured) {
     }
     EXPECT_LT(result["depth"][2]["drawn_tiles"], result["depth"][1]["drawn_tiles"]);
     EXPECT_LT(result["depth"][1]["drawn_tiles"], result["depth"][0]["drawn_tiles"]);
-    ASSERT_EQ(result["residents"].size(), 6U);
+    const json& residents = result["residents"];
+    ASSERT_EQ(residents.size(), 6U);
     for (std::size_t i = 0; i < 3; ++i) {
         // The same view, whatever else is in memory.
-        EXPECT_EQ(result["residents"][i]["tested_tiles"], result["residents"][i + 3]["tested_tiles"]);
-        EXPECT_EQ(result["residents"][i]["drawn_tiles"], result["residents"][i + 3]["drawn_tiles"]);
-        EXPECT_GE(result["residents"][i + 3]["paged_lods"], 600);
+        EXPECT_EQ(residents[i]["tested_tiles"], residents[i + 3]["tested_tiles"]);
+        EXPECT_EQ(residents[i]["drawn_tiles"], residents[i + 3]["drawn_tiles"]);
+        EXPECT_GE(residents[i + 3]["paged_lods"], 600);
     }
     ASSERT_EQ(result["memory"].size(), 4U);
     EXPECT_EQ(result["memory"][0]["method"], "no bins");
@@ -103,11 +95,10 @@ TEST(ScaleProgram, WritesWhatItMeasured) {
     EXPECT_EQ(csv.find("series,levels,method,tested_tiles"), 0U);
 }
 
-TEST(ScaleProgram, DrawsFigures) {
+TEST_F(ScaleProgram, DrawsFigures) {
     if (!std::filesystem::exists("/usr/bin/gnuplot")) GTEST_SKIP() << "needs gnuplot";
-    const TemporaryFolder folder;
-    const Outcome outcome =
-        runScale("--series depth --levels 1,2 --poses 2 --cells 2 --rounds 1 --plot " + test::quoted(folder.path()));
+    const Outcome outcome = run({"--series", "depth", "--levels", "1,2", "--poses", "2", "--cells", "2", "--rounds",
+                                 "1", "--plot", folder.path()});
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     std::set<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
@@ -117,28 +108,20 @@ TEST(ScaleProgram, DrawsFigures) {
     }
     EXPECT_EQ(files, (std::set<std::string>{"depth.csv", "depth.gp", "depth.png", "depth.svg", "flight.csv",
                                             "flight.gp", "flight.png", "flight.svg"}));
-    EXPECT_EQ(test::textOfFile(folder.path() + "/depth.csv").find("x,sphere,bins,oracle"), 0U);
+    EXPECT_EQ(test::textOfFile(folder / "depth.csv").find("x,sphere,bins,oracle"), 0U);
 }
 
-TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
-    const struct {
-        const char* arguments;
-        const char* part;
-        int code = 2;
-    } cases[] = {{"--methods cube", "--methods: unknown method \"cube\""},
-                 {"--methods sphere+horizon", "--methods: unknown method"},
-                 {"--levels 25", "--levels"},
-                 {"--cells 3", "--cells: 3 is odd"},
-                 {"--series memory,shape", "--series: unknown series \"shape\""},
-                 {"--json /absent/scale.json", "--json: there is no folder", 1},
-                 {"--residents 1000000 --series residents --methods sphere --rounds 0", "--rounds"}};
-    for (const auto& wrong : cases) {
-        const Outcome outcome = runScale(wrong.arguments);
-        EXPECT_EQ(outcome.code, wrong.code) << wrong.arguments;
-        EXPECT_EQ(outcome.linesWith("osgbinbench scale: "), 1) << outcome.text;
-        EXPECT_EQ(outcome.linesWith(wrong.part), 1) << outcome.text;
-    }
-    EXPECT_EQ(runScale("--help").code, 0);
+TEST_F(ScaleProgram, SaysInOneLineWhatIsWrong) {
+    const std::pair<std::vector<std::string>, const char*> cases[] = {
+        {{"--methods", "cube"}, "--methods: unknown method \"cube\""},
+        {{"--methods", "sphere+horizon"}, "--methods: unknown method"},
+        {{"--levels", "25"}, "--levels"},
+        {{"--cells", "3"}, "--cells: 3 is odd"},
+        {{"--series", "memory,shape"}, "--series: unknown series \"shape\""},
+        {{"--residents", "1000000", "--series", "residents", "--methods", "sphere", "--rounds", "0"}, "--rounds"}};
+    for (const auto& [words, what] : cases) test::expectOneLine(run(words), "osgbinbench scale", what, 2);
+    test::expectOneLine(run({"--json", "/absent/scale.json"}), "osgbinbench scale", "--json: there is no folder");
+    EXPECT_EQ(run({"--help"}).code, 0);
 }
 
 }  // namespace
