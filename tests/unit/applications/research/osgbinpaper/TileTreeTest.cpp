@@ -1,17 +1,57 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
-// The recursion, and the two proofs that verdicts are set against. The proofs come from different code: a plane between
-// tile and frustum from the core, a point in both from sampling.
+//
+// Heights of tiles against samples of the raster, the recursion, and the two proofs that verdicts are set against. The
+// proofs come from different code: a plane between tile and frustum from the core, a point in both from sampling.
 
 #include "TestGlobe.h"
 #include "TileTree.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <support/Random.h>
 
 namespace osgAnalyticBin::paper {
 namespace {
+
+TileId tileAt(int level, double latitudeDeg, double longitudeDeg) {
+    const double size = std::ldexp(22.5, -level);
+    return {level, static_cast<int>((longitudeDeg + 180.0) / size), static_cast<int>((latitudeDeg + 90.0) / size)};
+}
+
+TEST(Terrain, EveryLevelHoldsTheHeightsAndTheLevelBelow) {
+    const TestGlobe globe;
+    Terrain terrain = globe.terrain(5);
+    test::Random random(1);
+    double start = 0.0, deep = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+        const double latitudeDeg = random.uniform(-90.0, 90.0);
+        const double longitudeDeg = random.uniform(-180.0, 180.0);
+        const double height = terrain.height({latitudeDeg, longitudeDeg});
+        for (int level = 0; level <= 5; ++level) {
+            const core::Interval& range = terrain.heights(tileAt(level, latitudeDeg, longitudeDeg));
+            EXPECT_GE(range.lower, 0.0) << "the sea's surface";
+            EXPECT_TRUE(range.contains({height, height})) << latitudeDeg << ' ' << longitudeDeg;
+            if (level == 5) continue;
+            EXPECT_TRUE(range.contains(terrain.heights(tileAt(level + 1, latitudeDeg, longitudeDeg)))) << level;
+        }
+        start += terrain.heights(tileAt(0, latitudeDeg, longitudeDeg)).width();
+        deep += terrain.heights(tileAt(5, latitudeDeg, longitudeDeg)).width();
+    }
+    EXPECT_GT(start / 5000.0, 2000.0) << "there were hills to hold";
+    EXPECT_LT(deep, 0.5 * start);
+}
+
+TEST(Terrain, OutsideOfTheRasterItIsFlat) {
+    const TestGlobe cut(3.0, 50.0, 60, 40, 0.1);
+    const Terrain terrain = cut.terrain(5);
+    for (const TileId& tile : {tileAt(0, 0.0, -60.0), tileAt(5, 0.0, -60.0), tileAt(5, 56.0, 12.0)})
+        EXPECT_EQ(terrain.heights(tile), (core::Interval{0.0, 0.0}));
+    EXPECT_GT(terrain.heights(tileAt(5, 52.0, 6.0)).width(), 0.0);
+    EXPECT_NEAR(terrain.extent().west, 3.0, 1e-9);
+    EXPECT_NEAR(terrain.extent().north, 54.0, 1e-9);
+}
 
 class TileTreeTest : public testing::Test {
 protected:
@@ -29,51 +69,24 @@ protected:
     Terrain _terrain = _globe.terrain(5);
 };
 
-TEST_F(TileTreeTest, IsDividedNearTheEye) {
-    forTrees([&](const TileTree& tree, const Camera& camera) {
-        ASSERT_GE(tree.tiles.size(), 128U);
-        std::size_t deepest = 0;
-        for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-            if (tree.tiles[i].id.level > tree.tiles[deepest].id.level) deepest = i;
-            for (std::size_t child = 0; child < 4 && !tree.tiles[i].isLeaf(); ++child) {
-                EXPECT_EQ(tree.tiles[tree.tiles[i].firstChild + child].id.ancestor(tree.tiles[i].id.level),
-                          tree.tiles[i].id);
-                EXPECT_TRUE(tree.tiles[i].box.contains(tree.tiles[tree.tiles[i].firstChild + child].box));
-            }
-        }
-        const double width = tree.tiles[deepest].box.latitude().width() * 6.4e6;
-        const glm::dvec3 center = wgs84().toEcef(tree.tiles[deepest].box.center());
-        const double least = deepest >= TileTree::kStartTiles ? glm::distance(center, camera.eye) : 0.0;
-        EXPECT_LT(least, 9.0 * width);
-    });
-}
-
-TEST_F(TileTreeTest, NoTileIsBothOutsideAndSeen) {
+TEST_F(TileTreeTest, NoTileIsBothOutsideAndSeenAndAWitnessIsAPointOfTheTileInTheFrustum) {
     std::size_t outside = 0;
     std::size_t seen = 0;
     forTrees([&](const TileTree& tree, const Camera& camera) {
-        for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-            const auto witness = findWitness(wgs84(), tree.tiles[i].box, camera);
-            EXPECT_FALSE(tree.tiles[i].isOutside && witness) << i;
-            outside += tree.tiles[i].isOutside ? 1U : 0U;
-            seen += witness ? 1U : 0U;
+        for (const auto& tile : tree.tiles) {
+            const auto found = findWitness(wgs84(), tile.box, camera);
+            EXPECT_FALSE(tile.isOutside && found);
+            outside += tile.isOutside ? 1U : 0U;
+            seen += found ? 1U : 0U;
+            if (!tile.witness) continue;
+            EXPECT_TRUE(tile.box.contains(tile.witness->position));
+            for (const core::Plane& plane : camera.planes())
+                EXPECT_GE(plane.distance(wgs84().toEcef(tile.witness->position)), tile.witness->depth);
+            EXPECT_GT(tile.witness->depth, 0.0);
         }
     });
     EXPECT_GT(outside, 1000U);
     EXPECT_GT(seen, 500U);
-}
-
-TEST_F(TileTreeTest, AWitnessIsAPointOfTheTileInTheFrustum) {
-    forTrees([&](const TileTree& tree, const Camera& camera) {
-        for (std::size_t i = 0; i < tree.tiles.size(); ++i) {
-            const auto& witness = tree.tiles[i].witness;
-            if (!witness) continue;
-            EXPECT_TRUE(tree.tiles[i].box.contains(witness->position));
-            for (const core::Plane& plane : camera.planes())
-                EXPECT_GE(plane.distance(wgs84().toEcef(witness->position)), witness->depth);
-            EXPECT_GT(witness->depth, 0.0);
-        }
-    });
 }
 
 TEST_F(TileTreeTest, TerrainBehindTheGlobeIsNoWitness) {
@@ -107,22 +120,6 @@ TEST_F(TileTreeTest, TheRecursionEndsAtOutsideAndAtInside) {
         }
     });
     EXPECT_GT(untested, 100U);
-}
-
-TEST(Camera, ARandomOneKeepsToItsKindAndItsNumber) {
-    const TestGlobe globe;
-    Terrain terrain = globe.terrain(0);
-    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
-        for (std::size_t number = 0; number < 20; ++number) {
-            const Camera camera = randomCamera(terrain, kind, number);
-            const core::Geodetic position = wgs84().toGeodetic(camera.eye);
-            const double above = position.altitude - terrain.onSurface(position).altitude;
-            EXPECT_GE(above, kViewKinds[kind].lowest - 1e-3);
-            EXPECT_LE(above, kViewKinds[kind].highest + 1e-3);
-            EXPECT_EQ(camera.eye, randomCamera(terrain, kind, number).eye);
-            EXPECT_NE(camera.eye, randomCamera(terrain, kind, number + 1).eye);
-        }
-    }
 }
 
 }  // namespace
