@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The reverse test. HullSoundness.cpp tests bins with a point that is inside the frustum by long double.
+// The reverse test. HullSoundness.cpp tests bins with a point that is inside the frustum by long double, and
+// BoxBinsTest.cpp that frusta beyond a face are found.
 
 #include "FrustumHull.h"
 
@@ -28,42 +29,6 @@ using core::Plane;
 using hull::FrustumHull;
 using hull::ReverseBin;
 
-TEST(FrustumHull, FindsTheCorners) {
-    Random random(322);
-    for (int trial = 0; trial < 1000; ++trial) {
-        View view;
-        view.eye = 1e7 * random.direction();
-        view.lookAlong(random.direction(), random);
-        view.halfWidth = random.logUniform(0.05, 2.0);
-        const auto sides = view.planes();
-        const FrustumHull apex(sides, sides.size());
-        ASSERT_EQ(apex.cornerCount(), 4u) << "the apex, for every three of its planes";
-        EXPECT_LT(glm::distance(apex.corner(0), view.eye), 1e-5);
-        view.nearDistance = 10.0;
-        view.farDistance = 1e6;
-        const auto all = view.planes();
-        const FrustumHull box(all, all.size());
-        ASSERT_EQ(box.cornerCount(), 8u);
-        for (std::size_t i = 0; i < 8; ++i) {
-            const glm::dvec3 local = box.corner(i) - view.eye;
-            const double depth = glm::dot(local, view.forward);
-            EXPECT_LT(std::min(std::abs(depth - 10.0), std::abs(depth - 1e6)), 1e-4);
-            EXPECT_NEAR(std::abs(glm::dot(local, view.right)), depth * view.halfWidth, 1e-4);
-            EXPECT_NEAR(std::abs(glm::dot(local, view.up)), depth * view.halfWidth, 1e-4);
-        }
-    }
-}
-
-TEST(FrustumHull, AnOrthographicFrustumHasCornersOnlyWithNearOrFar) {
-    View view;
-    view.orthographic = true;
-    EXPECT_EQ(FrustumHull(view.planes(), 4).cornerCount(), 0u);
-    view.nearDistance = 1.0;
-    EXPECT_EQ(FrustumHull(view.planes(), 5).cornerCount(), 4u);
-    view.farDistance = 2.0;
-    EXPECT_EQ(FrustumHull(view.planes(), 6).cornerCount(), 8u);
-}
-
 TEST(ReverseBin, FacesHoldTheBin) {
     Random random(325);
     for (int trial = 0; trial < 20000; ++trial) {
@@ -76,6 +41,27 @@ TEST(ReverseBin, FacesHoldTheBin) {
             const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
             ASSERT_LE(length(point), reverse.reach());
             for (std::size_t f = 0; f < reverse.faceCount(); ++f) ASSERT_GE(exactDistance(reverse.face(f), point), 0);
+        }
+    }
+}
+
+TEST(FrustumHull, HasTheCornersOfItsView) {
+    Random random(322);
+    for (int trial = 0; trial < 1000; ++trial) {
+        View view;
+        view.eye = 1e7 * random.direction();
+        view.lookAlong(random.direction(), random);
+        view.halfWidth = random.logUniform(0.05, 2.0);
+        ASSERT_EQ(FrustumHull(view.planes(), 4).cornerCount(), 4u) << "the apex, for every three of its planes";
+        view.nearDistance = 10.0;
+        view.farDistance = 1e6;
+        const std::vector<Plane> planes = view.planes();
+        const FrustumHull hull(planes, 6);
+        ASSERT_EQ(hull.cornerCount(), 8u);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const auto isOn = [&](const Plane& p) { return std::abs(p.distance(hull.corner(i))) < 1e-4; };
+            EXPECT_EQ(std::count_if(planes.begin(), planes.end(), isOn), 3);
+            for (const Plane& plane : planes) EXPECT_GT(plane.distance(hull.corner(i)), -1e-4);
         }
     }
 }

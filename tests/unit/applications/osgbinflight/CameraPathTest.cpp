@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Camera paths as text. Oracle: values worked out by hand. The table format itself is tested here too.
+// Camera paths as text, and the names and parameters of the pseudo-loader. Oracle: values worked out by hand. The table
+// format itself is tested here too.
 
 #include "CameraPath.h"
+#include "Failure.h"
+#include "FlightOptions.h"
+
+#include <osgAnalyticBin/NameParameters.h>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +16,7 @@
 #include <string>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
+#include <tuple>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -18,18 +24,20 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 const std::string kHeader = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n";
 
-std::string errorOf(const std::string& text) {
+constexpr const char* kPose = ",0,0,1000,0,0,0,60,1,2\n";  // after its name
+
+std::vector<CameraPose> read(const std::string& text) {
     std::istringstream input(text);
-    return test::failureOf([&] { (void)readCameraPath(input, "path.csv"); });
+    return readCameraPath(input, "path.csv");
 }
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+void expectError(const std::string& text, const std::string& what) {
+    const std::string error = test::failureOf([&] { (void)read(text); });
+    EXPECT_NE(error.find(what), std::string::npos) << what << " is not in " << error;
 }
 
 TEST(CameraPath, ConvertsDegreesToRadiansAndKeepsMetres) {
-    std::istringstream input("# a remark\n\n" + kHeader + " a_1 , 90,-180,1000,45.5,180,-20.5,60,1.5,2e6\n");
-    const auto path = readCameraPath(input, "path.csv");
+    const auto path = read("# a remark\n\n" + kHeader + " a_1 , 90,-180,1000,45.5,180,-20.5,60,1.5,2e6\n");
     ASSERT_EQ(path.size(), 1u);
     const CameraPose& pose = path.front();
     EXPECT_EQ(pose.name, "a_1");
@@ -42,130 +50,128 @@ TEST(CameraPath, ConvertsDegreesToRadiansAndKeepsMetres) {
     EXPECT_DOUBLE_EQ(pose.verticalFov, kPi / 3);
     EXPECT_EQ(pose.nearPlane, 1.5);
     EXPECT_EQ(pose.farPlane, 2e6);
+    // without columns of their own it is level, from the middle, and a second a pose
+    EXPECT_EQ(pose.roll, 0.0);
+    EXPECT_EQ(pose.eyeRight, 0.0);
+    EXPECT_EQ(read(kHeader + "a" + kPose + "b" + kPose).back().time, 1.0);
 }
 
-TEST(CameraPath, TakesColumnsInAnyOrder) {
-    std::istringstream input(
-        "far,name,near,fovDeg,lookAlt,lookLonDeg,lookLatDeg,eyeAlt,eyeLonDeg,eyeLatDeg\n9,p,8,7,6,5,4,3,2,1\n");
-    const auto path = readCameraPath(input, "path.csv");
+TEST(CameraPath, TakesColumnsInAnyOrderAndTimeRollAndAnEyeAside) {
+    const auto path = read(
+        "eyeRight,far,time,name,rollDeg,near,fovDeg,lookAlt,lookLonDeg,lookLatDeg,eyeAlt,eyeLonDeg,eyeLatDeg\n"
+        "-0.5,9,10,p,-90,8,7,6,5,4,3,2,1\n0.5,9,12.5,q,0,8,7,6,5,4,3,2,1\n");
     EXPECT_EQ(path.front().farPlane, 9.0);
     EXPECT_EQ(path.front().eye.altitude, 3.0);
     EXPECT_DOUBLE_EQ(path.front().eye.latitude, kPi / 180.0);
-}
-
-TEST(CameraPath, LeavesNearAndFarPlanesToOsg) {
-    const std::string header = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg";
-    std::istringstream input(header + "\np,1,2,300,1,3,300,60\n");
-    const auto path = readCameraPath(input, "path.csv");
-    EXPECT_FALSE(path.front().hasPlanes());
-    std::ostringstream written;
-    writeCameraPath(written, path);
-    EXPECT_EQ(written.str().substr(0, header.size() + 6), header + ",time,");
-    EXPECT_TRUE(contains(errorOf(header + ",far\np,1,2,300,1,3,300,60,9\n"), "one is missing"));
-}
-
-TEST(CameraPath, OverAMapHasCoordinatesInPlaceOfAngles) {
-    const std::string header = "name,eyeX,eyeY,eyeAlt,lookX,lookY,lookAlt,fovDeg,near,far\n";
-    std::istringstream input(header + "p,500000.25,4600000.5,900,510000,4600000,800,60,1,2\n");
-    const auto path = readCameraPath(input, "path.csv");
-    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path.front().eye), glm::dvec3(500000.25, 4600000.5, 900.0));
-    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path.front().look), glm::dvec3(510000.0, 4600000.0, 800.0));
-    std::istringstream mixed(
-        "name,eyeX,eyeY,eyeAlt,lookLonDeg,lookLatDeg,lookAlt,fovDeg,near,far\np,1,2,3,4,5,6,7,8,9\n");
-    EXPECT_EQ(test::failureOf([&] { (void)readCameraPath(mixed, "path.csv"); }),
-              "path.csv: column \"lookY\" is missing");
-}
-
-TEST(CameraPath, NamesFileAndLineOfABrokenLine) {
-    const std::string good = "a,0,0,1000,0,0,0,60,1,2\n";
-    EXPECT_TRUE(contains(errorOf(kHeader + good + "b,0,0,1000,0,zero,0,60,1,2\n"), "path.csv:3: lookLonDeg"));
-    EXPECT_TRUE(contains(errorOf("# x\n" + kHeader + "b,91,0,1000,0,0,0,60,1,2\n"), "path.csv:3: eyeLatDeg"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,nan,0,0,0,60,1,2\n"), "path.csv:2: eyeAlt"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000m,0,0,0,60,1,2\n"), "path.csv:2: eyeAlt"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,180,1,2\n"), "path.csv:2: fovDeg"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,0,2\n"), "path.csv:2: near"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,2,2\n"), "path.csv:2: near"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,1000,60,1,2\n"), "path.csv:2: eye and look"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,1\n"), "path.csv:2: 9 cells"));
-    EXPECT_TRUE(contains(errorOf(kHeader + "a/b,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: name"));
-    EXPECT_TRUE(contains(errorOf(kHeader + good + good), "path.csv:3: name \"a\" is used twice"));
-}
-
-TEST(CameraPath, RejectsAnUnsuitableHeader) {
-    EXPECT_TRUE(contains(errorOf(""), "no line that names the columns"));
-    EXPECT_TRUE(contains(errorOf(kHeader), "no pose"));
-    EXPECT_TRUE(contains(errorOf("name,eyeLatDeg\na,1\n"), "\"eyeLonDeg\" is missing"));
-    EXPECT_TRUE(contains(errorOf("name,name\na,1\n"), "path.csv:1: column \"name\" stands twice"));
-    const std::string header = kHeader.substr(0, kHeader.size() - 1);
-    EXPECT_TRUE(contains(errorOf(header + ",roll\na,0,0,1000,0,0,0,60,1,2,0\n"), "unknown column \"roll\""));
-}
-
-TEST(CameraPath, TakesTimeRollAndAnEyeAside) {
-    const std::string header = "eyeRight,time,rollDeg," + kHeader;
-    std::istringstream input(header + "-0.5,10,-90,a,0,0,1000,0,0,0,60,1,2\n0.5,12.5,0,b,0,0,1000,0,0,0,60,1,2\n");
-    const auto path = readCameraPath(input, "path.csv");
     EXPECT_EQ(path.front().eyeRight, -0.5);
     EXPECT_EQ(path.front().time, 10.0);
     EXPECT_DOUBLE_EQ(path.front().roll, -kPi / 2);
     EXPECT_EQ(path.back().time, 12.5);
-    EXPECT_EQ(path.back().name, "b");
+    EXPECT_EQ(path.back().name, "q");
 }
 
-TEST(CameraPath, IsLevelFromTheMiddleAndASecondAPoseWithoutTheseColumns) {
-    std::istringstream input(kHeader + "a,0,0,1000,0,0,0,60,1,2\nb,0,0,1000,0,0,0,60,1,2\n");
-    const auto path = readCameraPath(input, "path.csv");
-    EXPECT_EQ(path.front().time, 0.0);
-    EXPECT_EQ(path.back().time, 1.0);
-    EXPECT_EQ(path.back().roll, 0.0);
-    EXPECT_EQ(path.back().eyeRight, 0.0);
+TEST(CameraPath, LeavesNearAndFarPlanesToOsg) {
+    const std::string header = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg";
+    const auto path = read(header + "\np,1,2,300,1,3,300,60\n");
+    EXPECT_FALSE(path.front().hasPlanes());
+    std::ostringstream written;
+    writeCameraPath(written, path);
+    EXPECT_EQ(written.str().substr(0, header.size() + 6), header + ",time,");
+    expectError(header + ",far\np,1,2,300,1,3,300,60,9\n", "one is missing");
 }
 
-TEST(CameraPath, RejectsTimesThatDoNotGrow) {
-    const std::string header = "time," + kHeader;
-    const std::string error = errorOf(header + "3,a,0,0,1000,0,0,0,60,1,2\n3,b,0,0,1000,0,0,0,60,1,2\n");
-    EXPECT_TRUE(contains(error, "path.csv:3: time is 3, but has to be later than 3")) << error;
-    EXPECT_TRUE(contains(errorOf(header + "-1,a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: time"));
-    EXPECT_TRUE(contains(errorOf("rollDeg," + kHeader + "400,a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: rollDeg"));
-    EXPECT_TRUE(contains(errorOf("eyeRight," + kHeader + ",a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: eyeRight"));
+TEST(CameraPath, OverAMapHasCoordinatesInPlaceOfAngles) {
+    const auto path = read(
+        "name,eyeX,eyeY,eyeAlt,lookX,lookY,lookAlt,fovDeg,near,far\n"
+        "p,500000.25,4600000.5,900,510000,4600000,800,60,1,2\n");
+    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path.front().eye), glm::dvec3(500000.25, 4600000.5, 900.0));
+    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path.front().look), glm::dvec3(510000.0, 4600000.0, 800.0));
+    expectError("name,eyeX,eyeY,eyeAlt,lookLonDeg,lookLatDeg,lookAlt,fovDeg,near,far\np,1,2,3,4,5,6,7,8,9\n",
+                "path.csv: column \"lookY\" is missing");
+}
+
+TEST(CameraPath, NamesFileAndLineOfABrokenLine) {
+    const std::string good = std::string("a") + kPose;
+    expectError(kHeader + good + "b,0,0,1000,0,zero,0,60,1,2\n", "path.csv:3: lookLonDeg");
+    expectError("# x\n" + kHeader + "b,91,0,1000,0,0,0,60,1,2\n", "path.csv:3: eyeLatDeg");
+    expectError(kHeader + good + good, "path.csv:3: name \"a\" is used twice");
+    for (const auto& [line, what] : {std::pair("b,0,0,nan,0,0,0,60,1,2", "eyeAlt"),
+                                     {"b,0,0,1000m,0,0,0,60,1,2", "eyeAlt"},
+                                     {"b,0,0,1000,0,0,0,180,1,2", "fovDeg"},
+                                     {"b,0,0,1000,0,0,0,60,0,2", "near"},
+                                     {"b,0,0,1000,0,0,0,60,2,2", "near"},
+                                     {"b,0,0,1000,0,0,1000,60,1,2", "eye and look"},
+                                     {"b,0,0,1000,0,0,0,60,1", "9 cells"},
+                                     {"a/b,0,0,1000,0,0,0,60,1,2", "name"}})
+        expectError(kHeader + line + '\n', "path.csv:2: " + std::string(what));
+    for (const auto& [column, number] : {std::pair("time", "-1"), {"rollDeg", "400"}, {"eyeRight", ""}})
+        expectError(column + ("," + kHeader) + number + "," + good, "path.csv:2: " + std::string(column));
+    expectError("time," + kHeader + "3,a" + kPose + "3,b" + kPose, "path.csv:3: time is 3, but has to be later than 3");
+}
+
+TEST(CameraPath, RejectsAnUnsuitableHeader) {
+    expectError("", "no line that names the columns");
+    expectError(kHeader, "no pose");
+    expectError("name,eyeLatDeg\na,1\n", "\"eyeLonDeg\" is missing");
+    expectError("name,name\na,1\n", "path.csv:1: column \"name\" stands twice");
+    expectError("roll," + kHeader + "0,a" + kPose, "unknown column \"roll\"");
 }
 
 TEST(CameraPath, JoinsFilesOneSecondApart) {
     const test::TemporaryFolder folder;
-    const std::string first = folder.write("first.csv", "time," + kHeader +
-                                                            "4,a,0,0,1000,0,0,0,60,1,2\n"
-                                                            "9,b,0,0,1000,0,0,0,60,1,2\n");
-    const std::string second = folder.write("second.csv", "time," + kHeader +
-                                                              "7,c,0,0,1000,0,0,0,60,1,2\n"
-                                                              "8,d,0,0,1000,0,0,0,60,1,2\n");
+    const std::string first = folder.write("first.csv", "time," + kHeader + "4,a" + kPose + "9,b" + kPose);
+    const std::string second = folder.write("second.csv", "time," + kHeader + "7,c" + kPose + "8,d" + kPose);
     const auto path = readCameraPathFiles({first, second});
     ASSERT_EQ(path.size(), 4U);
     EXPECT_EQ(path[1].time, 9.0);
     EXPECT_EQ(path[2].time, 10.0);
     EXPECT_EQ(path[3].time, 11.0);
-    const auto errorOfSecond = [&](const std::string& other) {
-        return test::failureOf([&] { (void)readCameraPathFiles({first, other}); });
-    };
-    EXPECT_TRUE(contains(errorOfSecond(first), "name \"a\" is used in " + first + " too")) << errorOfSecond(first);
-    EXPECT_TRUE(contains(errorOfSecond("/nowhere/path.csv"), "/nowhere/path.csv"));
+    for (const auto& [other, what] :
+         {std::pair(first, "name \"a\" is used in " + first + " too"), {"/nowhere/path.csv", "/nowhere/path.csv"}}) {
+        const std::string error = test::failureOf([&, file = other] { (void)readCameraPathFiles({first, file}); });
+        EXPECT_NE(error.find(what), std::string::npos) << error;
+    }
 }
 
 // Names that begin with the path's, so that figures can be summed up by path.
 TEST(CameraPath, TheShippedPathsAreGoodTogetherAndNamedForTheirFiles) {
-    const std::vector<std::string> names{"nadir",    "oblique",  "horizon", "rockies", "pole",
-                                         "dateline", "sensor10", "sensor2", "stereo",  "turning"};
     std::vector<std::string> files;
-    for (const std::string& name : names) files.push_back(std::string(SHIPPED_PATHS) + "/" + name + ".csv");
+    for (const std::string name :
+         {"nadir", "oblique", "horizon", "rockies", "pole", "dateline", "sensor10", "sensor2", "stereo", "turning"}) {
+        files.push_back(std::string(SHIPPED_PATHS) + "/" + name + ".csv");
+        const auto path = readCameraPathFiles({files.back()});
+        EXPECT_GE(path.size(), 6U) << name;
+        for (const CameraPose& pose : path) EXPECT_EQ(pose.name.rfind(name + "_", 0), 0U) << pose.name;
+    }
     EXPECT_NO_THROW((void)readCameraPathFiles(files));
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const auto path = readCameraPathFiles({files[i]});
-        EXPECT_GE(path.size(), 6U) << names[i];
-        for (const CameraPose& pose : path) EXPECT_EQ(pose.name.rfind(names[i] + "_", 0), 0U) << pose.name;
+    EXPECT_GE(readCameraPathFiles({DEMO_PATH_FILE}).size(), 14u);
+}
+
+TEST(NameParameters, AreWhatStandsInTheLastBrackets) {
+    for (const auto& [text, name, parameters] :
+         {std::tuple("a.b/path.csv.(out=x (1)/y.z,frames=3)", "a.b/path.csv", "out=x (1)/y.z,frames=3"),
+          {"path.csv", "path.csv", ""},
+          {"earth (1)", "earth (1)", ""},
+          {"", "", ""},
+          {"(levels=12)", "", "levels=12"}}) {
+        EXPECT_EQ(nameParametersFrom(text).name, name);
+        EXPECT_EQ(nameParametersFrom(text).parameters, parameters);
     }
 }
 
-TEST(CameraPath, TheDemosPathIsGood) {
-    const auto path = readCameraPathFiles({DEMO_PATH_FILE});
-    EXPECT_GE(path.size(), 14u);
+TEST(FlightOptions, ReadsEveryParameterAndPassesOverThoseOfOtherPlugins) {
+    FlightOptions options;
+    readBracketed(options.parameters(), "out=/tmp/a folder, frames=3 ,timeout=1.5");
+    EXPECT_EQ(options.out, "/tmp/a folder");
+    EXPECT_EQ(options.frames, 3);
+    EXPECT_EQ(options.timeout, 1.5);
+    readOptionString(options.parameters(), "method=sphere frames=7 dds_flip");
+    EXPECT_EQ(options.frames, 7);
+    EXPECT_THROW(readOptionString(options.parameters(), "method=sphere frames=seven"), support::Failure);
+    for (const char* const bad : {"speed=3", "frames=0", "frames=1.5", "frames=many", "timeout=-1", "out=", "frames"}) {
+        const std::string error = test::failureOf([&] { readBracketed(options.parameters(), bad); });
+        EXPECT_NE(error.find(bad), std::string::npos) << error;
+    }
 }
 
 }  // namespace
