@@ -30,13 +30,9 @@ namespace {
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::test::Bytes;
 using osgAnalyticBin::test::require;
+using osgAnalyticBin::test::requireOneLine;
 
 constexpr const char* kFile = "/vsimem/fuzz.tif";
-
-bool isOneLine(const Failure& failure) {
-    const std::string text = failure.what();
-    return !text.empty() && text.find('\n') == std::string::npos;
-}
 
 /// Takes the lines up to an empty one.
 std::vector<std::string> takeArguments(Bytes& bytes) {
@@ -57,7 +53,7 @@ std::optional<osgbindem::Settings> settingsOf(const std::vector<std::string>& ar
     try {
         return osgbindem::settingsFrom(static_cast<int>(words.size()), words.data());
     } catch (const Failure& failure) {
-        require(isOneLine(failure));
+        requireOneLine(failure);
         return std::nullopt;
     }
 }
@@ -75,34 +71,20 @@ void requireRanges(const osgbindem::Settings& settings) {
 }
 
 void georeference(GDALDataset& dataset, Bytes& bytes) {
-    const int width = dataset.GetRasterXSize();
-    const int height = dataset.GetRasterYSize();
-    std::array<double, 6> transform{bytes.between(-200.0, 200.0),
-                                    bytes.between(0.0, 360.0 / width),
-                                    0.0,
-                                    bytes.between(-95.0, 95.0),
-                                    0.0,
-                                    bytes.between(-180.0 / height, 180.0 / height)};
-    switch (bytes.below(5)) {
-        case 0:
-            transform = {-180.0, 360.0 / width, 0.0, 90.0, 0.0, -180.0 / height};
-            break;
-        case 1:
-            transform = {4e5, bytes.between(1.0, 1e5), 0.0, 5e6, 0.0, -bytes.between(1.0, 1e5)};
-            break;
-        case 2:
-            transform[2] = bytes.number(), transform[4] = bytes.number();
-            break;
-        case 3:
-            for (double& number : transform) number = bytes.number();
-            break;
-        default:
-            break;
-    }
+    const double dx = 360.0 / dataset.GetRasterXSize();
+    const double dy = 180.0 / dataset.GetRasterYSize();
+    std::array<double, 6> transform{
+        bytes.between(-200.0, 200.0), bytes.between(0.0, dx), 0.0, bytes.between(-95.0, 95.0), 0.0,
+        bytes.between(-dy, dy)};
+    const int kind = bytes.below(5);
+    if (kind == 0) transform = {-180.0, dx, 0.0, 90.0, 0.0, -dy};
+    if (kind == 1) transform = {4e5, bytes.between(1.0, 1e5), 0.0, 5e6, 0.0, -bytes.between(1.0, 1e5)};
+    if (kind == 2) transform[2] = bytes.number(), transform[4] = bytes.number();
+    for (std::size_t i = 0; kind == 3 && i < 6; ++i) transform[i] = bytes.number();
     if (bytes.byte() != 255) dataset.SetGeoTransform(transform.data());
 
     constexpr std::array<int, 6> kReferences{0, 4326, 4267, 32633, 3857, 3031};
-    const int code = kReferences[static_cast<std::size_t>(bytes.below(static_cast<int>(kReferences.size())))];
+    const int code = bytes.pick(kReferences);
     OGRSpatialReference reference;
     if (code != 0 && reference.importFromEPSG(code) == OGRERR_NONE) dataset.SetSpatialRef(&reference);
 }
@@ -112,11 +94,9 @@ void setNodata(GDALRasterBand& band, Bytes& bytes) {
     // a double is refused there
     constexpr std::array<std::int64_t, 4> kOdd{0, -1, std::numeric_limits<std::int64_t>::min(),
                                                std::numeric_limits<std::int64_t>::max()};
-    if (band.GetRasterDataType() == GDT_Int64) band.SetNoDataValueAsInt64(bytes.pick(kOdd));
-    if (band.GetRasterDataType() == GDT_UInt64) {
-        band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(bytes.pick(kOdd)));
-    }
-    if (band.GetRasterDataType() == GDT_Int64 || band.GetRasterDataType() == GDT_UInt64) return;
+    if (band.GetRasterDataType() == GDT_Int64) return (void)band.SetNoDataValueAsInt64(bytes.pick(kOdd));
+    if (band.GetRasterDataType() == GDT_UInt64)
+        return (void)band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(bytes.pick(kOdd)));
 #endif
     band.SetNoDataValue(bytes.number());
 }
@@ -179,7 +159,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         if (writeRaster(bytes)) readRaster(*settings);
     } catch (const Failure& failure) {
-        require(isOneLine(failure));
+        requireOneLine(failure);
     }
     VSIUnlink(kFile);
     return 0;

@@ -93,16 +93,12 @@ void page(osg::Node& scene) {
     }
 }
 
-osg::Matrixd matrixOf(const osg::NodePath& path) {
-    return osg::computeLocalToWorld(path);
-}
-
 /// The vertices that are drawn, in the frame of the scene; none where one is not finite.
 std::vector<osg::Vec3d> drawnVertices(osg::Geometry& geometry) {
     std::vector<osg::Vec3d> result;
     const osg::NodePathList paths = geometry.getParentalNodePaths();
     if (paths.size() != 1 || !geometry.getVertexArray()) return result;
-    const osg::Matrixd matrix = matrixOf(paths.front());
+    const osg::Matrixd matrix = osg::computeLocalToWorld(paths.front());
     const auto* floats = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
     const auto* doubles = dynamic_cast<const osg::Vec3dArray*>(geometry.getVertexArray());
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
@@ -156,17 +152,10 @@ bool isSurfaceKnown(const FoundTile& tile) {
     });
 }
 
-/// Primitives may have too few vertices to be drawn.
-bool drawsNothing(const FoundTile& tile, const osg::NodePath& path) {
-    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
-        return std::find(path.begin(), path.end(), mesh.get()) != path.end() && surfaceOf(*mesh, tile).isEmpty;
-    });
-}
-
-bool isOwnMesh(const FoundTile& tile, const osg::NodePath& path) {
-    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
-        return std::find(path.begin(), path.end(), mesh.get()) != path.end();
-    });
+/// The tile's own mesh that a path goes through; null: none.
+osg::Node* ownMesh(const FoundTile& tile, const osg::NodePath& path) {
+    const auto mesh = std::find_first_of(path.begin(), path.end(), tile.meshes.begin(), tile.meshes.end());
+    return mesh == path.end() ? nullptr : *mesh;
 }
 
 /// What moves by itself is culled with the tile that it is in, wherever it is.
@@ -189,17 +178,19 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
         if (hasStoredBin(*path[i])) (i <= culprit ? isStoredAbove : isStored) = true;
         if (scene.tiles.count(path[i]) > 0) innermost = i;
     }
-    if (innermost == path.size() || drawsNothing(scene.tiles.at(path[innermost]), path)) return -1.0;
+    if (innermost == path.size()) return -1.0;
+    const FoundTile& tile = scene.tiles.at(path[innermost]);
+    osg::Node* const mesh = ownMesh(tile, path);
+    // primitives may have too few vertices to be drawn
+    if (mesh && surfaceOf(*mesh, tile).isEmpty) return -1.0;
     // what cannot be told keeps the stored bins above it open
-    if (!isSurfaceKnown(scene.tiles.at(path[innermost])))
-        return hasStoredBin(*path[culprit]) && isOwnMesh(scene.tiles.at(path[innermost]), path) ? kRounding : -1.0;
+    if (!isSurfaceKnown(tile)) return hasStoredBin(*path[culprit]) && mesh ? kRounding : -1.0;
     if (std::any_of(path.begin() + static_cast<std::ptrdiff_t>(innermost) + 1, path.end(),
                     [](osg::Node* node) { return mayMove(*node); }))
         return -1.0;
     isStored = isStored || isStoredAbove;
     // bins of tiles that have none stored hold what is within their extents, whatever is stored above them
-    if (!isStored || !hasStoredBin(*path[culprit]))
-        return innermost <= culprit && isOwnMesh(scene.tiles.at(path[innermost]), path) ? kRounding : -1.0;
+    if (!isStored || !hasStoredBin(*path[culprit])) return innermost <= culprit && mesh ? kRounding : -1.0;
     if (!isStoredAbove) return -1.0;
     double extent = 0.0;
     for (const osg::Vec3d& vertex : vertices) extent = std::max(extent, (vertex - vertices.front()).length());
@@ -214,16 +205,13 @@ bool isWithin(const osg::Vec3d& point, const std::vector<osg::Plane>& planes, do
 void describe(const osg::Vec3d& vertex, const Scene& scene, const osg::NodePath& path) {
     std::fprintf(stderr, "culled, though seen: %.17g %.17g %.17g\n", vertex.x(), vertex.y(), vertex.z());
     for (osg::Node* node : path) {
-        const AnalyticBinCullCallback* callback = binOf(*node);
+        const AnalyticBinCullCallback* bin = binOf(*node);
         std::string stored;
         (void)node->getUserValue("osgAnalyticBin", stored);
-        const bool isReached = callback && scene.reached.count(scene.names.at(node)) > 0;
-        std::fprintf(stderr, "%s%s, stored [%s]", node->className(), scene.tiles.count(node) > 0 ? ", tile" : "",
-                     stored.c_str());
-        if (callback)
-            std::fprintf(stderr, ", %s, bin [%s]", isReached ? "kept" : "culled", callback->getBinText().c_str());
-        if (callback) std::fprintf(stderr, ", frame [%s]", callback->getLocalToEcefText().c_str());
-        std::fprintf(stderr, "\n");
+        const char* const verdict = !bin ? "" : scene.reached.count(scene.names.at(node)) > 0 ? ", kept" : ", culled";
+        std::fprintf(stderr, "%s%s, stored [%s]%s, bin [%s]\n", node->className(),
+                     scene.tiles.count(node) > 0 ? ", tile" : "", stored.c_str(), verdict,
+                     bin ? bin->getBinText().c_str() : "");
     }
 }
 

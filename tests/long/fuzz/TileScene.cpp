@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
 
@@ -61,28 +62,18 @@ osg::ref_ptr<osg::PrimitiveSet> makePrimitives(Bytes& bytes, int posts) {
         default:
             break;
     }
-    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
-    for (int j = 0; j + 1 < posts; ++j) {
-        for (int i = 0; i + 1 < posts; ++i) {
-            const auto a = static_cast<unsigned int>(j * posts + i);
-            const auto n = static_cast<unsigned int>(posts);
-            for (const unsigned int index : {a, a + 1u, a + n + 1u, a, a + n + 1u, a + n}) elements->push_back(index);
-        }
-    }
+    const auto elements = gridTriangles(static_cast<unsigned int>(posts));
     if (bytes.below(16) == 15) elements->push_back(static_cast<unsigned int>(wild()));
     return elements;
 }
 
 osg::ref_ptr<osg::Array> makeVertices(Bytes& bytes, const ScenePlace& place, int posts, const osg::Vec3d& origin) {
     const osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
-    for (int j = 0; j < posts; ++j) {
-        for (int i = 0; i < posts; ++i) {
-            const double v = j / std::max(1.0, posts - 1.0);
-            const double u = i / std::max(1.0, posts - 1.0);
-            vertices->push_back(ecefOf(place.south + v * (place.north - place.south),
-                                       place.west + u * (place.east - place.west), place.height) -
-                                origin);
-        }
+    const double cells = std::max(1.0, posts - 1.0);
+    for (int i = 0; i < posts * posts; ++i) {
+        const double latitude = place.south + i / posts / cells * (place.north - place.south);
+        const double longitude = place.west + i % posts / cells * (place.east - place.west);
+        vertices->push_back(ecefOf(latitude, longitude, place.height) - origin);
     }
     const int odd = bytes.byte();
     if (odd >= 240) (*vertices)[static_cast<std::size_t>(bytes.byte()) % vertices->size()][odd % 3] = bytes.number();
@@ -110,22 +101,11 @@ osg::ref_ptr<osg::Geometry> makeGeometry(Bytes& bytes, const ScenePlace& place, 
 
 osg::Matrixd makeMatrix(Bytes& bytes, const osg::Vec3d& origin) {
     osg::Matrixd matrix = osg::Matrixd::translate(origin);
-    switch (bytes.below(12)) {
-        case 8:
-            matrix.ptr()[bytes.below(16)] = bytes.number();
-            break;
-        case 9:
-            matrix.preMultScale(osg::Vec3d(bytes.number(), 1.0, 0.0));
-            break;
-        case 10:
-            matrix.makeScale(osg::Vec3d(0.0, 0.0, 0.0));
-            break;
-        case 11:
-            matrix.preMultRotate(osg::Quat(bytes.between(-4.0, 4.0), osg::Vec3d(0.0, 0.6, 0.8)));
-            break;
-        default:
-            break;
-    }
+    const int kind = bytes.below(12);
+    if (kind == 8) matrix.ptr()[bytes.below(16)] = bytes.number();
+    if (kind == 9) matrix.preMultScale(osg::Vec3d(bytes.number(), 1.0, 0.0));
+    if (kind == 10) matrix.makeScale(osg::Vec3d(0.0, 0.0, 0.0));
+    if (kind == 11) matrix.preMultRotate(osg::Quat(bytes.between(-4.0, 4.0), osg::Vec3d(0.0, 0.6, 0.8)));
     return matrix;
 }
 
@@ -164,10 +144,7 @@ osg::ref_ptr<osg::Node> makeTerrainTile(Bytes& bytes, const ScenePlace& place) {
 /// A part of the place, or anywhere.
 ScenePlace placeInside(Bytes& bytes, const ScenePlace& place) {
     const int kind = bytes.byte();
-    if (kind == 255) {
-        ScenePlace odd{bytes.number(), bytes.number(), bytes.number(), bytes.number(), bytes.number()};
-        return odd;
-    }
+    if (kind == 255) return {bytes.number(), bytes.number(), bytes.number(), bytes.number(), bytes.number()};
     ScenePlace inside = place;
     const double latitude = 0.5 * (place.south + place.north);
     const double longitude = 0.5 * (place.west + place.east);

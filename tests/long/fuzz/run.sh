@@ -12,7 +12,7 @@ cd "$(dirname "$0")/../../.."
 mkdir -p build
 command -v clang++ >/dev/null || { echo "run.sh: no clang++; apt-get install clang" >&2; exit 2; }
 
-all="options storedtext index packed tiles arguments camerapath raster"
+all="options storedtext index packed tiles arguments camerapath"
 [ $# -lt 1 ] || shift
 [ $# -gt 0 ] || set -- $all
 for target in "$@"; do

@@ -3,10 +3,11 @@
 
 #include "Flight.h"
 
-#include "Watchdog.h"
+#include "Process.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
+#include <osg/Image>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 
@@ -16,7 +17,10 @@
 #include <chrono>
 #include <cstring>
 #include <iostream>
+#include <set>
+#include <support/VisitNodes.h>
 #include <thread>
+#include <typeinfo>
 
 namespace osgAnalyticBin::test {
 
@@ -47,6 +51,38 @@ CullOptions randomOptions(Random& random) {
 }
 
 }  // namespace
+
+std::size_t KitObjects::note(osg::Node& scene) {
+    std::set<osg::Object*> found;
+    visitNodes(scene, [&](osg::Node& node) {
+        for (osg::Callback* at : {node.getCullCallback(), node.getUpdateCallback()})
+            for (; at; at = at->getNestedCallback())
+                if (std::strstr(typeid(*at).name(), "osgAnalyticBin")) found.insert(at);
+    });
+    for (osg::Object* object : found) {
+        osg::observer_ptr<osg::Object>& known = _known[object];
+        if (!known.valid()) known = object;
+    }
+    return found.size();
+}
+
+std::size_t KitObjects::alive() {
+    for (auto entry = _known.begin(); entry != _known.end();) {
+        entry = entry->second.valid() ? std::next(entry) : _known.erase(entry);
+    }
+    return _known.size();
+}
+
+std::string KitObjects::kinds() const {
+    std::map<std::string, int> counts;
+    for (const auto& [address, observed] : _known) {
+        osg::ref_ptr<osg::Object> object;
+        if (observed.lock(object)) ++counts[object->className()];
+    }
+    std::string text;
+    for (const auto& [name, count] : counts) text += name + " " + std::to_string(count) + "  ";
+    return text;
+}
 
 /// The last picture of each camera, taken in the threads that draw.
 class Flight::Pictures {
@@ -119,18 +155,18 @@ void Flight::warmUp() {
     for (std::size_t i = kStaying; i < kMostDatabases; ++i) addDatabase(_databases.back());
     _rig->setMostPagedLods(100000);
     const osg::CullSettings::CullingMode mode = _rig->cameras().front()->getCullingMode();
-    for (osg::Camera* camera : _rig->cameras()) {
-        camera->setCullingMode(osg::CullSettings::NO_CULLING);
-        camera->setLODScale(0.0F);
-    }
+    const auto setCameras = [&](osg::CullSettings::CullingMode culling, float lodScale) {
+        for (osg::Camera* camera : _rig->cameras()) {
+            camera->setCullingMode(culling);
+            camera->setLODScale(lodScale);
+        }
+    };
+    setCameras(osg::CullSettings::NO_CULLING, 0.0F);
     for (const Threading model : kThreadingModels) {
         _rig->viewer().setThreadingModel(model);
         if (!rest()) ++_findings.unloaded;
     }
-    for (osg::Camera* camera : _rig->cameras()) {
-        camera->setCullingMode(mode);
-        camera->setLODScale(1.0F);
-    }
+    setCameras(mode, 1.0F);
     drain();
 }
 

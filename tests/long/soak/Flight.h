@@ -3,15 +3,15 @@
 
 #pragma once
 
-#include "Memory.h"
 #include "ViewerRig.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osg/Group>
-#include <osg/Image>
+#include <osg/observer_ptr>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <support/Random.h>
@@ -29,6 +29,23 @@ struct Findings {
     std::size_t strayObjects = 0;    ///< of the kit, alive at stations outside of the scene
     std::size_t undrainedTiles = 0;  ///< at stations, still loaded though out of view
     std::size_t unloaded = 0;        ///< stations at which the pager did not come to rest
+};
+
+/// The callbacks that the kit has put into a scene, told apart by address and observed until they are deleted. Not the
+/// options that files are read with: OSG's PagedLODs keep those of their last request.
+class KitObjects {
+public:
+    /// Looks for those in the scene. Returns: how many there are.
+    std::size_t note(osg::Node& scene);
+
+    /// Of all that were ever noted, those that are alive.
+    [[nodiscard]] std::size_t alive();
+
+    /// The same by class, for a message.
+    [[nodiscard]] std::string kinds() const;
+
+private:
+    std::map<const osg::Object*, osg::observer_ptr<osg::Object>> _known;
 };
 
 /// A viewer over databases, one of which stays from its beginning to its end, flown at random while everything that may

@@ -4,11 +4,11 @@
 // Flies at random for a long time while databases are paged, added and removed, and bins, options and threading models
 // change; fails when memory grows, when a tile is lost, or when something hangs. See tests/README.md.
 
-#include "CountedNew.h"
 #include "Flight.h"
 #include "PagedScenes.h"
-#include "Watchdog.h"
+#include "Process.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -65,6 +65,21 @@ struct Samples {
                   << where << std::fixed << std::setprecision(3) << std::setw(12) << objects.back() << std::endl;
     }
 };
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+// Growth from the median of the first tenth of samples to that of the last, in percent of `whole`, where the first
+// fifth of all was left out as a warm-up; 0 for fewer than 20 samples.
+double growthPercent(const std::vector<double>& samples, double whole) {
+    if (samples.size() < 20) return 0.0;
+    const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 5);
+    const auto tenth = static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples.size() / 10, 3));
+    return 100.0 * (median({samples.end() - tenth, samples.end()}) - median({warm, warm + tenth})) / whole;
+}
 
 class Soak {
 public:

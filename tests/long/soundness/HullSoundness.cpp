@@ -106,25 +106,24 @@ void tryFrustum(Random& random, Counts& counts) {
     const Ellipsoid ellipsoid = randomEllipsoid(random);
     const GeodeticBin bin = randomBin(random);
     const double margin = random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4);
-    const ExactGeodeticBin exact(ellipsoid, bin, margin);
-    const core::QuadraticBin quadratic(core::GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
     const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
     std::vector<Plane> planes = randomView(random, ellipsoid, bin, point).planes();
     moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
     const PlaneMask all = (PlaneMask{1} << planes.size()) - 1;
-    PlaneMask mask = all;
-    counts.note(kExactPlanes, core::classify(exact, planes, planes.size(), mask) == Side::Outside);
-    mask = all;
-    counts.note(kQuadraticPlanes, core::classify(quadratic, planes, planes.size(), mask) == Side::Outside);
-    const FrustumHull frustum(planes, planes.size());
-    counts.note(kReverse, isSeparated(ReverseBin(exact, bin), frustum));
+    const auto isOutside = [&](const auto& form) {
+        PlaneMask mask = all;
+        return core::classify(form, planes, planes.size(), mask) == Side::Outside;
+    };
+    const ExactGeodeticBin exact(ellipsoid, bin, margin);
     const BoxBin box(ellipsoid, bin, margin);
-    mask = all;
-    counts.note(kBox, core::classify(box, planes, planes.size(), mask) == Side::Outside || isSeparated(box, frustum));
     const OrientedBoxBin oriented(ellipsoid, bin, margin);
-    mask = all;
-    counts.note(kOrientedBox, core::classify(oriented, planes, planes.size(), mask) == Side::Outside ||
-                                  isSeparated(oriented, frustum));
+    const FrustumHull frustum(planes, planes.size());
+    counts.note(kExactPlanes, isOutside(exact));
+    counts.note(kQuadraticPlanes,
+                isOutside(core::QuadraticBin(core::GeodeticMapping(ellipsoid), core::parameterBox(bin), margin)));
+    counts.note(kReverse, isSeparated(ReverseBin(exact, bin), frustum));
+    counts.note(kBox, isOutside(box) || isSeparated(box, frustum));
+    counts.note(kOrientedBox, isOutside(oriented) || isSeparated(oriented, frustum));
     counts.note(kSearch, isSeparated(exact, planes, planes.size(), all, planes.size()));
 }
 
@@ -183,12 +182,12 @@ void tryTangent(Random& random, const TieCase& tie, Counts& counts) {
         const bool isLoose = truth.lower - exact.distanceRange(plane).lower > room;
         core::PlaneSet set;
         for (int i = 0; i < 4; ++i) set.push_back(plane);
-        PlaneMask mask = set.all();
-        const bool isKernelWrong = core::classify(quadratic, set, mask) == Side::Outside && truth.upper >= rounding;
-        mask = set.all();
-        const bool isExactKernelWrong = core::classify(exact, set, mask) == Side::Outside && truth.upper >= rounding;
-        counts.note(kExactPlanes, isFormWrong(exact) || isLoose || isExactKernelWrong);
-        counts.note(kQuadraticPlanes, std::visit(isFormWrong, quadratic) || isKernelWrong);
+        const auto isKernelWrong = [&](const auto& form) {
+            PlaneMask mask = set.all();
+            return core::classify(form, set, mask) == Side::Outside && truth.upper >= rounding;
+        };
+        counts.note(kExactPlanes, isFormWrong(exact) || isLoose || isKernelWrong(exact));
+        counts.note(kQuadraticPlanes, std::visit(isFormWrong, quadratic) || isKernelWrong(quadratic));
         counts.note(kBox, isWrong(box.classify(plane)));
         counts.note(kOrientedBox, isWrong(oriented.classify(plane)));
     }

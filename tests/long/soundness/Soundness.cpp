@@ -19,7 +19,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <string>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
@@ -87,14 +86,13 @@ struct SoundMethod {
     [[nodiscard]] bool isSound() const { return verdicts.wrong() == 0 && openRanges == 0; }
 };
 
-// One row of the table: a level of the quadtree, or a kind of bin.
-struct Row {
+struct Sums {
     std::uint64_t trials = 0;
     std::uint64_t decided = 0;  // planes that the bin truly does not cross
     SoundMethod quadratic, exact;
     Verdicts paper, corners;
 
-    void add(const Row& other) {
+    void add(const Sums& other) {
         trials += other.trials;
         decided += other.decided;
         quadratic.add(other.quadratic);
@@ -104,26 +102,13 @@ struct Row {
     }
 };
 
-// Levels first, then the kinds of bin that are no tiles.
+// Tiles of every level first, then the kinds of bin that are no tiles.
 constexpr std::size_t kLevels = kDeepestLevel + 1;
-constexpr std::size_t kRows = kLevels + kBinKinds.size() - 1;
-struct Table {
-    void add(const Table& other) {
-        for (std::size_t row = 0; row < kRows; ++row) rows[row].add(other.rows[row]);
-    }
-    std::array<Row, kRows> rows;
-};
+constexpr std::size_t kKinds = kLevels + kBinKinds.size() - 1;
 
-std::string nameOfRow(std::size_t row) {
-    if (row >= kLevels) return nameOf(kBinKinds[row - kLevels + 1]);
-    char text[32];
-    std::snprintf(text, sizeof text, "level %2zu %8.4f", row, std::ldexp(kRootTileDeg, -static_cast<int>(row)));
-    return text;
-}
-
-GeodeticBin binOfRow(Random& random, std::size_t row) {
-    if (row >= kLevels) return randomBin(random, kBinKinds[row - kLevels + 1]);
-    return randomTile(random, static_cast<int>(row), randomAltitude(random));
+GeodeticBin binOfKind(Random& random, std::size_t kind) {
+    if (kind >= kLevels) return randomBin(random, kBinKinds[kind - kLevels + 1]);
+    return randomTile(random, static_cast<int>(kind), randomAltitude(random));
 }
 
 void report(const char* what, const BinOracle& oracle, const Plane& plane) {
@@ -135,8 +120,8 @@ void report(const char* what, const BinOracle& oracle, const Plane& plane) {
         plane.normal.x, plane.normal.y, plane.normal.z, plane.offset);
 }
 
-void tryOneBin(Random& random, std::size_t rowIndex, Row& row) {
-    const BinOracle oracle(randomEllipsoid(random), binOfRow(random, rowIndex));
+void tryOneBin(Random& random, std::size_t kind, Sums& sums) {
+    const BinOracle oracle(randomEllipsoid(random), binOfKind(random, kind));
     const GeodeticMapping mapping(oracle.ellipsoid());
     const ParameterBox box = core::parameterBox(oracle.bin());
     const QuadraticBin quadratic(mapping, box);
@@ -148,72 +133,45 @@ void tryOneBin(Random& random, std::size_t rowIndex, Row& row) {
         const RealRange truth = oracle.distanceRange(plane);
         const Real rounding = oracle.rounding(plane);
         const bool quadraticHolds =
-            row.quadratic.note(quadratic.classify(plane), quadratic.distanceRange(plane), truth, rounding);
-        const bool exactHolds = row.exact.note(exact.classify(plane), exact.distanceRange(plane), truth, rounding);
-        if (!quadraticHolds) report(("quadratic, " + nameOfRow(rowIndex)).c_str(), oracle, plane);
-        if (!exactHolds) report(("exact, " + nameOfRow(rowIndex)).c_str(), oracle, plane);
-        row.paper.note(paper.classify(plane), truth, kComparisonTolerance);
-        row.corners.note(corners.classify(plane), truth, kComparisonTolerance);
-        ++row.trials;
-        row.decided += truth.upper < 0 || truth.lower >= 0 ? 1 : 0;
+            sums.quadratic.note(quadratic.classify(plane), quadratic.distanceRange(plane), truth, rounding);
+        const bool exactHolds = sums.exact.note(exact.classify(plane), exact.distanceRange(plane), truth, rounding);
+        if (!quadraticHolds) report("quadratic", oracle, plane);
+        if (!exactHolds) report("exact", oracle, plane);
+        sums.paper.note(paper.classify(plane), truth, kComparisonTolerance);
+        sums.corners.note(corners.classify(plane), truth, kComparisonTolerance);
+        ++sums.trials;
+        sums.decided += truth.upper < 0 || truth.lower >= 0 ? 1 : 0;
     }
 }
 
-void check(Random& random, std::uint64_t trials, Table& table) {
-    for (std::uint64_t i = 0; i < trials; i += kPlanesPerBin) {
-        const std::size_t row = (i / kPlanesPerBin) % kRows;
-        tryOneBin(random, row, table.rows[row]);
-    }
+void check(Random& random, std::uint64_t trials, Sums& sums) {
+    for (std::uint64_t i = 0; i < trials; i += kPlanesPerBin) tryOneBin(random, (i / kPlanesPerBin) % kKinds, sums);
 }
 
-void printSound(const Row& row, const SoundMethod& method) {
-    const double loose =
-        row.decided == 0 ? 0.0
-                         : 100.0 * static_cast<double>(method.verdicts.undecided) / static_cast<double>(row.decided);
-    std::printf(" | %5" PRIu64 " %5" PRIu64 " %6.2f %9.2Lg", method.verdicts.falseOutside, method.verdicts.falseInside,
-                loose, method.smallestSlack);
-}
-
-void printRow(const std::string& name, const Row& row) {
-    std::printf("%-18s %10" PRIu64, name.c_str(), row.trials);
-    printSound(row, row.quadratic);
-    printSound(row, row.exact);
-    std::printf(" | %8" PRIu64 " %8" PRIu64 " | %8" PRIu64 " %8" PRIu64 "\n", row.paper.falseOutside,
-                row.paper.falseInside, row.corners.falseOutside, row.corners.falseInside);
-}
-
-bool printVerdict(const char* name, const SoundMethod& method) {
-    std::printf("%s: %s; distance ranges that do not hold the truth: %" PRIu64 "\n", name,
-                method.isSound() ? "sound" : "UNSOUND", method.openRanges);
+// False verdicts; undecided planes among those that miss the bin; the least by which distance ranges hold the true one.
+bool printSound(const char* name, const SoundMethod& method, std::uint64_t decided) {
+    const double loose = 100.0 * static_cast<double>(method.verdicts.undecided) / static_cast<double>(decided);
+    std::printf("%-9s false outside %" PRIu64 ", false inside %" PRIu64
+                ", undecided %.2f %%, slack %.2Lg m; distance "
+                "ranges that do not hold the truth: %" PRIu64 ": %s\n",
+                name, method.verdicts.falseOutside, method.verdicts.falseInside, loose, method.smallestSlack,
+                method.openRanges, method.isSound() ? "sound" : "UNSOUND");
     return method.isSound();
-}
-
-bool printTable(const Table& table) {
-    std::printf("%-18s %10s | %28s | %28s | %17s | %17s\n", "", "", "quadratic", "exact", "paper", "corners");
-    std::printf("%-18s %10s | %5s %5s %6s %9s | %5s %5s %6s %9s | %8s %8s | %8s %8s\n", "tile", "trials", "out", "in",
-                "loose%", "slack m", "out", "in", "loose%", "slack m", "out", "in", "out", "in");
-    Row total;
-    for (std::size_t row = 0; row < kRows; ++row) {
-        printRow(nameOfRow(row), table.rows[row]);
-        total.add(table.rows[row]);
-    }
-    printRow("all", total);
-    std::printf(
-        "out, in: false verdicts. loose: undecided planes among those that miss the bin. slack: the least by which\n"
-        "the distance range holds the true one.\n");
-    const bool quadraticSound = printVerdict("quadratic", total.quadratic);
-    return printVerdict("exact", total.exact) && quadraticSound;
 }
 
 int run(int argc, char** argv) {
     const auto run = longRunOf(argc, argv);
     if (!run) return EXIT_FAILURE;
     const Stopwatch watch;
-    const Table table = runChunks<Table>(*run, kTrialsPerChunk, check);
-    const bool sound = printTable(table);
+    const Sums sums = runChunks<Sums>(*run, kTrialsPerChunk, check);
+    const bool isQuadraticSound = printSound("quadratic", sums.quadratic, sums.decided);
+    const bool isExactSound = printSound("exact", sums.exact, sums.decided);
+    for (const auto& [name, rule] : {std::pair("paper", &sums.paper), {"corners", &sums.corners}})
+        std::printf("%-9s false outside %" PRIu64 ", false inside %" PRIu64 "\n", name, rule->falseOutside,
+                    rule->falseInside);
     std::printf("%" PRIu64 " trials, seed %" PRIu64 ", %u threads, %.1f s\n", run->trials, run->seedValue, run->threads,
                 watch.seconds());
-    return sound ? EXIT_SUCCESS : EXIT_FAILURE;
+    return isQuadraticSound && isExactSound ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

@@ -8,100 +8,72 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <osg/PagedLOD>
-#include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
 #include <cmath>
+#include <functional>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
-constexpr int kColumns = 8;
-constexpr int kRows = 4;
-constexpr unsigned int kPosts = 9;
+using Edit = std::function<void(osg::PagedLOD& tile)>;
 
-// Tiles of that many degrees by row and column from the south-west.
-osg::ref_ptr<osgTerrain::TerrainTile> tileAt(int level, int row, int column) {
-    const double width = 360.0 / kColumns / (1 << level);
-    const double south = -90.0 + row * width;
-    const double west = -180.0 + column * width;
-    const auto extents = core::GeodeticBin::fromDegrees({south, south + width}, {west, west + width}, {0.0, 0.0});
-    osg::ref_ptr<osgTerrain::TerrainTile> tile =
-        makeTerrainTile(extents, kPosts, kPosts, [&](unsigned int i, unsigned int j) {
-            const double x = (west + i * width / (kPosts - 1)) * 0.2;
-            const double y = (south + j * width / (kPosts - 1)) * 0.3;
-            return static_cast<float>(2000.0 * std::sin(x) * std::sin(y));
-        });
-    tile->setTileID(osgTerrain::TileID(level, column, row));
-    return tile;
-}
-
-std::string quartersOf(int row, int column) {
-    return "quarters_" + std::to_string(row) + "_" + std::to_string(column) + ".osgb";
-}
-
-bool writeQuarters(const std::string& folder, int row, int column) {
-    const osg::ref_ptr<osg::Group> quarters = new osg::Group;
-    for (int i = 0; i < 4; ++i) quarters->addChild(tileAt(1, 2 * row + i / 2, 2 * column + i % 2));
-    return osgDB::writeNodeFile(*quarters, folder + "/" + quartersOf(row, column));
-}
-
-osg::ref_ptr<osg::PagedLOD> pagedTile(int row, int column) {
-    const osg::ref_ptr<osgTerrain::TerrainTile> mesh = tileAt(0, row, column);
-    const osg::BoundingSphere sphere =
-        AnalyticBin(core::GeodeticBin::fromDegrees({-90.0 + 45.0 * row, -45.0 + 45.0 * row},
-                                                   {-180.0 + 45.0 * column, -135.0 + 45.0 * column}, {0.0, 0.0}))
-            .boundingSphere(osg::EllipsoidModel());
-    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    paged->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-    paged->setCenter(sphere.center());
-    paged->setRadius(sphere.radius());
-    const float cutoff = 2.0f * sphere.radius();
-    paged->addChild(mesh, cutoff, 1e10f);
-    paged->setFileName(1, quartersOf(row, column));
-    paged->setRange(1, 0.0f, cutoff);
-    return paged;
-}
-
-// Bins that end far below the tiles of the file.
-bool belie(const std::string& file) {
-    const osg::ref_ptr<osg::Node> content = osgDB::readRefNodeFile(file);
-    if (!content) return false;
-    for (unsigned int i = 0; i < content->asGroup()->getNumChildren(); ++i) {
-        osg::Node& tile = *content->asGroup()->getChild(i);
-        AnalyticBin bin = storedBin(tile);
-        bin.setBin(bin.bin().withAltitude({-60000.0, -50000.0}));
-        setStoredBin(tile, bin);
+// Writes the synthetic database, and edits the tiles of all files, or of those below the root's tiles alone.
+// Returns: the root's file; empty when something cannot be written.
+std::string writeEdited(const std::string& folder, const std::string& files, const Edit& edit) {
+    const std::string rootFile = writeSyntheticDatabase(folder);
+    for (const std::string& name : osgDB::getDirectoryContents(folder)) {
+        if (name[0] == '.' || name.rfind(files, 0) != 0) continue;
+        const osg::ref_ptr<osg::Node> content = osgDB::readRefNodeFile(folder + "/" + name);
+        if (!content) return {};
+        for (unsigned int i = 0; i < content->asGroup()->getNumChildren(); ++i)
+            edit(dynamic_cast<osg::PagedLOD&>(*content->asGroup()->getChild(i)));
+        if (!osgDB::writeNodeFile(*content, folder + "/" + name)) return {};
     }
-    return osgDB::writeNodeFile(*content, file);
+    return rootFile;
+}
+
+// Puts an osgTerrain tile in the place of the mesh, and takes the stored bin away.
+void makeTerrain(osg::PagedLOD& tile) {
+    constexpr unsigned int kPosts = 9;
+    const core::GeodeticBin extents = storedBin(tile).bin().withAltitude({0.0, 0.0});
+    const osg::ref_ptr<osgTerrain::TerrainTile> terrain =
+        makeTerrainTile(extents, kPosts, kPosts, [&](unsigned int i, unsigned int j) {
+            const double x = extents.longitude().lower + i * extents.longitude().width() / (kPosts - 1);
+            const double y = extents.latitude().lower + j * extents.latitude().width() / (kPosts - 1);
+            return static_cast<float>(2000.0 * std::sin(11.0 * x) * std::sin(17.0 * y));
+        });
+    const double width = extents.longitude().width();
+    const auto place = [width](const core::Interval& range, double from) {
+        return static_cast<int>(std::floor((range.middle() + from) / width));
+    };
+    terrain->setTileID(osgTerrain::TileID(static_cast<int>(std::lround(std::log2(0.25 * osg::PI / width))),
+                                          place(extents.longitude(), osg::PI), place(extents.latitude(), osg::PI_2)));
+    tile.setChild(0, terrain);
+    tile.setUserDataContainer(nullptr);
 }
 
 }  // namespace
 
 std::string writeFalseDatabase(const std::string& folder) {
-    const std::string root = writeSyntheticDatabase(folder);
-    if (root.empty()) return {};
-    for (const std::string& name : osgDB::getDirectoryContents(folder)) {
-        const bool isBelowRoot = name.rfind("tiles_0_", 0) == 0;
-        if (isBelowRoot && !belie(folder + "/" + name)) return {};
-    }
-    return root;
+    return writeEdited(folder, "tiles_0_", [](osg::PagedLOD& tile) {
+        AnalyticBin bin = storedBin(tile);
+        bin.setBin(bin.bin().withAltitude({-60000.0, -50000.0}));
+        setStoredBin(tile, bin);
+    });
 }
 
 std::string writeTerrainDatabase(const std::string& folder) {
+    const std::string file = writeEdited(folder, "", makeTerrain);
+    const osg::ref_ptr<osg::Node> globe = osgDB::readRefNodeFile(file);
+    if (!globe) return {};
     const osg::ref_ptr<osgTerrain::Terrain> root = new osgTerrain::Terrain;
     root->setEllipsoidModel(new osg::EllipsoidModel);
-    for (int row = 0; row < kRows; ++row) {
-        for (int column = 0; column < kColumns; ++column) {
-            root->addChild(pagedTile(row, column));
-            if (!writeQuarters(folder, row, column)) return {};
-        }
-    }
-    const std::string file = folder + "/terrain.osgb";
+    for (unsigned int i = 0; i < globe->asGroup()->getNumChildren(); ++i) root->addChild(globe->asGroup()->getChild(i));
     return osgDB::writeNodeFile(*root, file) ? file : std::string();
 }
 

@@ -11,9 +11,8 @@ namespace osgAnalyticBin::test {
 /// root: they are widened when the tiles are loaded. Returns: the database's file; empty when it cannot be written.
 [[nodiscard]] std::string writeFalseDatabase(const std::string& folder);
 
-/// A paged globe of osgTerrain tiles without stored bins: 8 x 4 tiles of 45 degrees with 9 x 9 posts, and a file of
-/// quarters below each. Its root is an osgTerrain::Terrain. Returns: the database's file; empty when it cannot be
-/// written.
+/// The globe of writeSyntheticDatabase() as osgTerrain tiles with 9 x 9 posts, without stored bins. Its root is an
+/// osgTerrain::Terrain. Returns: the database's file; empty when it cannot be written.
 [[nodiscard]] std::string writeTerrainDatabase(const std::string& folder);
 
 }  // namespace osgAnalyticBin::test

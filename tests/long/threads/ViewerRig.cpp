@@ -92,19 +92,9 @@ private:
 }  // namespace
 
 const char* nameOf(Threading threading) {
-    switch (threading) {
-        case Threading::SingleThreaded:
-            return "SingleThreaded";
-        case Threading::CullDrawThreadPerContext:
-            return "CullDrawThreadPerContext";
-        case Threading::DrawThreadPerContext:
-            return "DrawThreadPerContext";
-        case Threading::CullThreadPerCameraDrawThreadPerContext:
-            return "CullThreadPerCameraDrawThreadPerContext";
-        case Threading::AutomaticSelection:
-            break;
-    }
-    return "AutomaticSelection";
+    constexpr const char* kNames[] = {"SingleThreaded", "CullDrawThreadPerContext", "DrawThreadPerContext",
+                                      "CullThreadPerCameraDrawThreadPerContext", "AutomaticSelection"};
+    return kNames[threading];
 }
 
 ViewerRig::ViewerRig(osg::Node& scene, Threading threading, Layout layout, int cameras)
