@@ -37,7 +37,7 @@ TEST(GlobeOptions, NamesOfFilesReadBackToTheSame) {
     options.bins = false;
     EXPECT_EQ(optionsOf("(levels=24,cells=2,relief=0.1,lod=5.5,bins=off).proceduralglobe"), options);
     EXPECT_EQ(optionsOf(rootFileOf(options)), options);
-    const osgbindem::TileId tile{23, (16 << 23) - 1, (8 << 23) - 1};
+    const tiles::TileId tile{23, (16 << 23) - 1, (8 << 23) - 1};
     const auto name = globeNameOf(childrenFileOf(tile, options), "levels=3");
     EXPECT_EQ(name.options, options);
     ASSERT_TRUE(name.tile);

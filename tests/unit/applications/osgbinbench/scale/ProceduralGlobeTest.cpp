@@ -21,8 +21,8 @@
 namespace osgAnalyticBin::globe {
 namespace {
 
-using osgbindem::Edge;
-using osgbindem::TileId;
+using tiles::Edge;
+using tiles::TileId;
 
 constexpr int kCells = 6;
 
@@ -81,9 +81,9 @@ TEST(ProceduralTerrain, HeightsBetweenPostsAreAsNearToTheLineAsItSays) {
     test::Random random(8104);
     for (int i = 0; i < 2000; ++i) {
         const double spacing = random.logUniform(1e-8, 0.1);
-        const osgbindem::PositionDeg from{random.uniform(-80.0, 80.0), random.uniform(-180.0, 170.0)};
+        const tiles::PositionDeg from{random.uniform(-80.0, 80.0), random.uniform(-180.0, 170.0)};
         const auto heightAt = [&](double share) {
-            osgbindem::PositionDeg at = from;
+            tiles::PositionDeg at = from;
             (i % 2 ? at.latitudeDeg : at.longitudeDeg) += share * spacing * kDegrees;
             return terrain.height(at);
         };
