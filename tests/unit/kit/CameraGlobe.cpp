@@ -3,6 +3,8 @@
 
 #include "CameraGlobe.h"
 
+#include <osgAnalyticBin/Declarations.h>
+
 #include <osg/Viewport>
 
 #include <algorithm>
@@ -61,7 +63,7 @@ private:
 
 class ReachRecorder : public osg::NodeCallback {
 public:
-    ReachRecorder(CameraGlobe& globe, std::size_t tile) : _globe(globe), _tile(tile) {}
+    ReachRecorder(CameraGlobe& globe, std::size_t tile) : _globe(globe), _tile(tile) { setTraversesAlways(*this); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {

@@ -3,6 +3,8 @@
 
 #include "CullFixture.h"
 
+#include <osgAnalyticBin/Declarations.h>
+
 #include <osg/CollectOccludersVisitor>
 #include <osg/FrameStamp>
 #include <osg/Geometry>
@@ -140,7 +142,9 @@ osg::ref_ptr<osg::Group> makeTile(const std::string& name, const AnalyticBin& bi
     osg::ref_ptr<osg::Group> tile = new osg::Group;
     tile->setName(name);
     osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, ellipsoid, options);
-    callback->setNestedCallback(new VisitRecorder(name, visited));
+    const osg::ref_ptr<osg::NodeCallback> recorder = new VisitRecorder(name, visited);
+    setTraversesAlways(*recorder);
+    callback->setNestedCallback(recorder);
     tile->setCullCallback(callback.get());
     tile->setCullingActive(false);
     return tile;

@@ -10,6 +10,7 @@
 #include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
+#include "ForeignCallbacks.h"
 #include "Viewpoint.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -332,7 +333,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
 bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const {
     const StateRules rules = view ? view->rules : StateRules::of(nv, _setup->options.plainShaders);
     const bool obeys = !_installed || !_installed->has(InstalledTile::IgnoresDepth);
-    return obeys && drawnStateOf(node, rules).obeysDepth &&
+    return obeys && drawnStateOf(node, rules).obeysDepth && !hasForeignCallback<AnalyticBinCullCallback>(node) &&
            drawnStateAbove(nv, rules, view ? view->states : nullptr).obeysDepth;
 }
 

@@ -6,22 +6,16 @@
 #include "../Classes.h"
 #include "../tile/EachNode.h"
 #include "DrawnState.h"
+#include "ForeignCallbacks.h"
 #include "TileFamily.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/Export.h>
 
 #include <osg/Callback>
-#include <osg/ClusterCullingCallback>
 #include <osg/Node>
 #include <osg/Projection>
 
 namespace osgAnalyticBin {
-
-/// Whether a callback leaves its node out while terrain hides it, and does nothing else. Defined with
-/// HiddenByTerrainCallback, which is the only one.
-[[nodiscard]] OSGANALYTICBIN_EXPORT bool asksForTerrain(const osg::Callback& callback);
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
@@ -38,7 +32,7 @@ struct CullCallbacks {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
-            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+            } else if (isForeign(*at) && !isHarmless(*at)) {
                 mayLeaveOut = isUnknown = true;
             }
         }

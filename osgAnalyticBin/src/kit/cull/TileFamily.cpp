@@ -11,6 +11,7 @@
 #include "CullScopes.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
+#include "ForeignCallbacks.h"
 #include "InstalledBin.h"
 
 #include <osg/CoordinateSystemNode>
@@ -304,12 +305,14 @@ void TileFamily::noteMemory(Footprint::Notes& notes, const osg::Group& level) co
     notes.add(_tiles.data(), _tiles.size() * sizeof _tiles[0]);
 }
 
-// A state that the application has set since then is asked for.
+// A state or a callback that the application has set since then is asked for.
 std::uint64_t TileFamily::hideable(unsigned int first, std::uint64_t tiles) const {
     std::uint64_t hideable = tiles;
     forEachBit(tiles, [&](unsigned int number) {
         const osg::Node* const node = _nodes[first + number];
-        if (node && !drawnStateOf(*node, {_trustsShaders}).obeysDepth) hideable &= ~(std::uint64_t{1} << number);
+        const bool obeysDepth = !node || (drawnStateOf(*node, {_trustsShaders}).obeysDepth &&
+                                          !hasForeignCallback<AnalyticBinCullCallback>(*node));
+        if (!obeysDepth) hideable &= ~(std::uint64_t{1} << number);
     });
     return hideable;
 }

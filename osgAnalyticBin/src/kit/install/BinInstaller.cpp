@@ -9,6 +9,7 @@
 #include "../Scoped.h"
 #include "../cull/CullCallbacks.h"
 #include "../cull/DrawnState.h"
+#include "../cull/ForeignCallbacks.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../database/BinReadFileCallback.h"
@@ -487,6 +488,8 @@ private:
         // a class of the application's may show anything of a tile
         const bool isPaged = dynamic_cast<const osg::PagedLOD*>(tile.node.get());
         if (isPaged && !isOneOf<osg::PagedLOD>(*tile.node)) drawn.hides = drawn.obeysDepth = false;
+        // for the tiles above: that of the tile itself is asked for in each view
+        drawn.obeysDepth = drawn.obeysDepth && !hasForeignCallback<AnalyticBinCullCallback>(*tile.node);
         if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
         installed.doubtUpwards(reasonsAbove(drawn));
     }
