@@ -117,6 +117,27 @@ TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     }
 }
 
+// A rock hangs over the plain. From one view to the next the eye gets into it, above the same triangle of the plain.
+TEST(Evidence, IsMissingWithinARockThatHangsOverTheGround) {
+    constexpr unsigned int kPostsASide = 9;
+    constexpr double kCell = 0.025, kTop = 3000.0, kWithin = 2500.0;
+    RidgeGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(0.0, 0.2, 0.0, 0.2), 0.0, kPostsASide);
+    const osg::Matrixd fromEcef = osg::Matrixd::inverse(mesh->getMatrix());
+    auto& vertices = static_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    for (unsigned int row = 0; row < kPostsASide; ++row) {
+        vertices[row * kPostsASide + 5] = ecefDeg(row * kCell, 2.5 * kCell, kTop) * fromEcef;
+        vertices[row * kPostsASide + 6] = ecefDeg(row * kCell, 6.0 * kCell, kTop) * fromEcef;
+    }
+    globe.row[0]->setChild(0, mesh);
+    installBins(*globe.root);
+    for (const auto& [columns, isInRock] : {std::pair(2.1, false), std::pair(2.9, true), std::pair(2.1, false)}) {
+        const osg::Vec3d eye = ecefDeg(4.05 * kCell, columns * kCell, kWithin);
+        (void)globe.drawsFarTile(CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0));
+        EXPECT_EQ(globe.counts().hidden == 0u, isInRock) << columns;
+    }
+}
+
 TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     const auto sign = [](const osg::Vec3d& at) {
         const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(at);

@@ -22,13 +22,38 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Searches the highest triangle of a mesh on the vertical through a point. OSG's intersectors read no doubles, and past
-// the end of an incomplete last triangle.
-class VerticalSearch final : public SurfaceWalk {
+// Goes through the triangles of a mesh, in ECEF. OSG's intersectors read no doubles, and past the end of an incomplete
+// last triangle.
+class TriangleWalk : public SurfaceWalk {
+public:
+    using SurfaceWalk::SurfaceWalk;
+
+protected:
+    virtual void look(const SurfaceMesh& mesh) = 0;
+
+private:
+    // OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
+    // tile.
+    void visit(osgTerrain::TerrainTile& tile) final {
+        osgTerrain::TerrainTechnique* const technique = tile.getTerrainTechnique();
+        if (!technique || tile.getDirtyMask() != 0) return giveUp();
+        technique->traverse(*this);
+    }
+
+    void visit(osg::Drawable& drawable) final {
+        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from mesh to mesh
+        SurfaceMesh& mesh = *kept;
+        if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
+        look(mesh);
+    }
+};
+
+// Searches the highest triangle of a mesh on the vertical through a point.
+class VerticalSearch final : public TriangleWalk {
 public:
     // `bottom`: metres, less than 0, down to which triangles are looked for.
     VerticalSearch(const osg::Matrixd& localToEcef, const glm::dvec3& point, const glm::dvec3& up, double bottom)
-        : SurfaceWalk(localToEcef),
+        : TriangleWalk(localToEcef),
           _point(point),
           _up(up),
           _right(glm::normalize(glm::cross(up, std::abs(up.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)))),
@@ -38,22 +63,11 @@ public:
 
     // Whether there is one, and the point is above it.
     [[nodiscard]] bool isBelow() const { return isKnown() && _hasTriangle && _highest < 0.0; }
-    // Its corners, in ECEF.
+    // Its corners.
     [[nodiscard]] const core::TriangleCorners& triangle() const { return _triangle; }
 
 private:
-    // OSG makes meshes of terrain tiles in the update traversal. It must not make them here: other threads may cull the
-    // tile.
-    void visit(osgTerrain::TerrainTile& tile) override {
-        osgTerrain::TerrainTechnique* const technique = tile.getTerrainTechnique();
-        if (!technique || tile.getDirtyMask() != 0) return giveUp();
-        technique->traverse(*this);
-    }
-
-    void visit(osg::Drawable& drawable) override {
-        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from mesh to mesh
-        SurfaceMesh& mesh = *kept;
-        if (!readMesh(drawable, localToEcef(), mesh, true)) return giveUp();
+    void look(const SurfaceMesh& mesh) override {
         _sides.resize(mesh.x.size());
         for (std::size_t i = 0; i < _sides.size(); ++i) _sides[i] = sidesOf(mesh.vertex(i) - _point);
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
@@ -87,6 +101,54 @@ private:
     core::TriangleCorners _triangle{};
 };
 
+// Looks whether anything of a mesh is above a triangle of it.
+class OverhangSearch final : public TriangleWalk {
+public:
+    OverhangSearch(const osg::Matrixd& localToEcef, const core::TriangleCorners& triangle, const glm::dvec3& up)
+        : TriangleWalk(localToEcef), _triangle(triangle), _up(up), _rounding(1e-11 * glm::length(triangle[0])) {
+        _normal = glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+        if (glm::dot(_normal, up) < 0.0) _normal = -_normal;
+    }
+
+    [[nodiscard]] bool isOpen() const { return isKnown() && !_hasOverhang; }
+
+private:
+    void look(const SurfaceMesh& mesh) override {
+        for (std::size_t i = 0; !_hasOverhang && i + 2 < mesh.triangles.size(); i += 3)
+            _hasOverhang = isOver({mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
+                                   mesh.vertex(mesh.triangles[i + 2])});
+    }
+
+    // Skirts and what only touches the triangle are not.
+    [[nodiscard]] bool isOver(const core::TriangleCorners& other) const {
+        const bool isHigher = std::any_of(other.begin(), other.end(), [&](const glm::dvec3& at) {
+            return glm::dot(at - _triangle[0], _normal) > _rounding;
+        });
+        return isHigher && !isBeside(_triangle, other) && !isBeside(other, _triangle);
+    }
+
+    // Whether a vertical plane through a side of one triangle has the other beyond it.
+    [[nodiscard]] bool isBeside(const core::TriangleCorners& one, const core::TriangleCorners& other) const {
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            const glm::dvec3 &from = one[i], &to = one[(i + 1) % 3], &third = one[(i + 2) % 3];
+            const glm::dvec3 across = glm::cross(to - from, _up);
+            const double outward = glm::dot(third - from, across) > 0.0 ? -1.0 : 1.0;
+            const double room = _rounding * glm::length(across);
+            const bool isBeyond = std::all_of(other.begin(), other.end(), [&](const glm::dvec3& at) {
+                return outward * glm::dot(at - from, across) >= -room;
+            });
+            if (isBeyond) return true;
+        }
+        return false;
+    }
+
+    const core::TriangleCorners _triangle;
+    const glm::dvec3 _up;
+    const double _rounding;  // metres
+    glm::dvec3 _normal{};
+    bool _hasOverhang = false;
+};
+
 }  // namespace
 
 bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const {
@@ -108,7 +170,9 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     ground.mesh.accept(search);
     if (!search.isBelow()) return false;
     _triangle = search.triangle();
-    _mesh = &ground.mesh;
+    OverhangSearch overhang(ground.localToEcef, _triangle, up);
+    ground.mesh.accept(overhang);
+    if (overhang.isOpen()) _mesh = &ground.mesh;
     _localToEcef = ground.localToEcef;
     _uses = 0;
     return true;

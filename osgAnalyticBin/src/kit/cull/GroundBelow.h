@@ -27,8 +27,8 @@ class GroundBelow {
 public:
     /// Whether the mesh is below the eye along the ellipsoid's normal. False in doubt: where the normal meets no
     /// triangle, where something in the mesh cannot be read, and for terrain tiles that have no mesh yet.
-    /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
-    /// triangle of a mesh that has not changed.
+    /// Cost: two searches through the mesh's triangles, or some ten products of vectors while the eye stays above the
+    /// same triangle of a mesh that has not changed, if nothing of the mesh is above that triangle.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);
 
 private:
