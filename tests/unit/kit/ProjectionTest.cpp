@@ -247,6 +247,19 @@ TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
     EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
 }
 
+TEST(Projections, ATiltedNearPlaneCutsTheGlobeOpenAtOneSide) {
+    CameraGlobe globe(test::horizonOptions());
+    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    LookTotals totals;
+    for (const double tilt : {0.0, 1.2, -1.2}) {
+        view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1e6, 1e8);
+        view.projection(0, 2) = tilt * view.projection(0, 0);
+        const Look look = lookOf(globe, view);
+        EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << tilt;
+        EXPECT_EQ(look.reached.size() < 128u, tilt == 0.0) << tilt;
+    }
+}
+
 // Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
 // differ; so does one that is culled for twice in a frame, moved along its view.
 TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {

@@ -116,6 +116,16 @@ double reachOfNearPlane(const osg::Matrixd& p, const osg::Matrixd& eyeToWorld) {
     return nearest;
 }
 
+// The corner of an orthographic picture at which the near plane, which may be tilted, is farthest along the view.
+osg::Vec3d farthestOfNearPlane(const osg::Matrixd& unproject, const osg::Vec3d& direction) {
+    osg::Vec3d farthest = osg::Vec3d(-1.0, -1.0, -1.0) * unproject;
+    for (int corner = 1; corner < 4; ++corner) {
+        const osg::Vec3d at = osg::Vec3d(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, -1.0) * unproject;
+        if (at * direction > farthest * direction) farthest = at;
+    }
+    return farthest;
+}
+
 // Whether the near plane of the projection cuts what is drawn: not where OSG computes another one, unless it culls by
 // this one before, or the planes are computed for shadows alone (osgShadow::ViewDependentShadowMap).
 bool isNearPlaneInUse(osg::CullStack& cullStack, osg::NodeVisitor& visitor) {
@@ -158,10 +168,13 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     }
     osg::Matrixd unproject;
     if (!isOrthographic(projection) || !unproject.invert(projection)) return std::nullopt;
-    osg::Vec3d start = osg::Vec3d(0.0, 0.0, -1.0) * unproject;
-    const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - start;
+    const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - osg::Vec3d(0.0, 0.0, -1.0) * unproject;
     // the projection does not tell reversed depth from a reversed viewing direction
     if (!(direction.z() < 0.0)) return std::nullopt;
+    // OSG moves a tilted near plane, and leaves it tilted
+    const bool isTilted = projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
+    if (isTilted && !isFinalProjection(cullStack)) return std::nullopt;
+    osg::Vec3d start = farthestOfNearPlane(unproject, direction);
     // With near and far computed, what is wholly behind the eye is not drawn and hides nothing.
     if (!isFinalProjection(cullStack) && start.z() > 0.0) start += direction * (start.z() / -direction.z());
     viewpoint._isDirection = true;
