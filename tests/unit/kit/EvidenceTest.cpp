@@ -19,6 +19,7 @@
 #include <osgTerrain/Terrain>
 
 #include <utility>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -117,6 +118,25 @@ TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     }
 }
 
+// All but a peak of the tile below the eye.
+TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEyeBeforeBinsAreInstalledAgain) {
+    RidgeGlobe globe;
+    osg::Geometry& geometry = *drawableOf(*globe.row[0])->asGeometry();
+    auto& vertices = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
+    const osg::Vec3 up = ecefDeg(0.1, 0.1, 3000.0) - ecefDeg(0.1, 0.1, 0.0);
+    vertices[0] += up;
+    installBins(*globe.root);
+    const CullView view = CullView::lookAt(ecefDeg(0.11, 0.11, 1000.0), {0, 0, 0}, {0, 0, 1}, 100.0);
+    (void)globe.drawsFarTile(view);
+    EXPECT_GT(globe.counts().hidden, 0u);
+    for (unsigned int i = 1; i < vertices.size(); ++i) vertices[i] += up;
+    vertices.dirty();
+    geometry.dirtyBound();
+    installBins(*globe.root);
+    (void)globe.drawsFarTile(view);
+    EXPECT_EQ(globe.counts().hidden, 0u);
+}
+
 // A rock hangs over the plain. From one view to the next the eye gets into it, above the same triangle of the plain.
 TEST(Evidence, IsMissingWithinARockThatHangsOverTheGround) {
     constexpr unsigned int kPostsASide = 9;
@@ -161,6 +181,31 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
         }
         EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isLater << isTestedByItself;
     }
+}
+
+// The system may give a new object the address of one that was taken away.
+TEST(WhatIgnoresDepth, IsToldFromWhatStoodAtItsAddress) {
+    const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    globe.tiles[15]->setRange(1, 0.0f, 1e10f);
+    putBelow(*globe.tiles[15], file);
+    installBins(*globe.root);
+    osg::ref_ptr<osg::Node> tower = makeTower(antipode);
+    file->addChild(tower);
+    EXPECT_FALSE(globe.drawsAntipode());
+    update(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+    const osg::Node* const before = tower;
+    file->removeChild(tower);
+    tower = nullptr;
+    std::vector<osg::ref_ptr<osg::Node>> others;
+    for (int i = 0; i < 1000 && tower != before; ++i) others.push_back(tower = makeTower(antipode));
+    // that is not always so
+    tower->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    (void)tower->getBound();
+    file->addChild(tower);
+    EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove()));
 }
 
 struct OwnBound : osg::Node::ComputeBoundingSphereCallback {

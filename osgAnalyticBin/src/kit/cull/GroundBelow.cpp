@@ -161,7 +161,8 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
     // an application may change a mesh without saying so: a result is used for about a second
     constexpr int kMostUses = 60;
-    const bool isSame = ground.isAsRead && _mesh.get() == &ground.mesh && _localToEcef == ground.localToEcef;
+    const bool isSame = ground.isAsRead && _tile.get() == &ground.tile && _mesh.get() == &ground.mesh &&
+                        _localToEcef == ground.localToEcef;
     if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;
     const double bottom = std::min(ground.low, eye.altitude) - 1.0 - eye.altitude;
@@ -173,6 +174,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     OverhangSearch overhang(ground.localToEcef, _triangle, up);
     ground.mesh.accept(overhang);
     if (overhang.isOpen()) _mesh = &ground.mesh;
+    _tile = &ground.tile;
     _localToEcef = ground.localToEcef;
     _uses = 0;
     return true;

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <osg/Matrixd>
 #include <osg/Node>
+#include <osg/Object>
 #include <osg/observer_ptr>
 
 #include <array>
@@ -16,6 +17,7 @@ namespace osgAnalyticBin {
 
 /// A tile's own mesh, where it is drawn.
 struct Ground {
+    const osg::Object& tile;  ///< its bin: a new one where bins are installed again
     osg::Node& mesh;
     const osg::Matrixd& localToEcef;
     double low;     ///< metres above the ellipsoid; the mesh is not below
@@ -34,6 +36,7 @@ public:
 private:
     [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
 
+    osg::observer_ptr<const osg::Object> _tile;
     osg::observer_ptr<const osg::Node> _mesh;
     osg::Matrixd _localToEcef;
     int _uses = 0;

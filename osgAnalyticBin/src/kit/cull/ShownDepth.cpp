@@ -29,7 +29,8 @@ bool isBelow(const SelectionWalk::NearGround& close, const core::Geodetic& place
     const InstalledTile* const installed = tile.getInstalledTile();
     const bool isAsRead = installed && !installed->has(InstalledTile::MeshChanged);
     const double low = tile.getBinLow() - tile.getBin().margin();
-    return view.traversal.ground.isBelow(place, {*close.mesh, tile.getLocalToEcef(), low, isAsRead}, view.ellipsoid);
+    return view.traversal.ground.isBelow(place, {tile, *close.mesh, tile.getLocalToEcef(), low, isAsRead},
+                                         view.ellipsoid);
 }
 
 // Whether the eye is above the ground, or will be, once finer meshes come.

@@ -438,7 +438,7 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
 }
 
 bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
-    if (i >= _held.size() || _held[i].node != &child || !(_held[i].sphere == child.getBound())) return false;
+    if (i >= _held.size() || _held[i].node.get() != &child || !(_held[i].sphere == child.getBound())) return false;
     return _held[i].state == State() || _held[i].state == stateOf(child);
 }
 

@@ -10,6 +10,7 @@
 
 #include <osg/BoundingSphere>
 #include <osg/Node>
+#include <osg/observer_ptr>
 
 #include <cstdint>
 #include <vector>
@@ -70,7 +71,7 @@ private:
     };
 
     struct Held {
-        const osg::Node* node = nullptr;
+        osg::observer_ptr<const osg::Node> node;  // another one may get its address
         osg::BoundingSphere sphere;
         State state;  // as made: the bins hold all of the sphere
     };
