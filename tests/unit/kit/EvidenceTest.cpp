@@ -183,29 +183,72 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     }
 }
 
+void ignoreDepth(osg::Node& node) {
+    node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+}
+
+// A globe with a file below the tile on its other side.
+struct AntipodeFile : MeshGlobe {
+    AntipodeFile() {
+        tiles[15]->setRange(1, 0.0f, 1e10f);
+        putBelow(*tiles[15], file);
+        installBins(*root);
+    }
+    // Adds a model that the horizon hides.
+    void add(osg::Node& model) {
+        file->addChild(&model);
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_FALSE(draws(*file, fromAbove())) << i;
+            update(*root);
+        }
+    }
+
+    const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+};
+
 // The system may give a new object the address of one that was taken away.
 TEST(WhatIgnoresDepth, IsToldFromWhatStoodAtItsAddress) {
-    const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
-    MeshGlobe globe;
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    globe.tiles[15]->setRange(1, 0.0f, 1e10f);
-    putBelow(*globe.tiles[15], file);
-    installBins(*globe.root);
-    osg::ref_ptr<osg::Node> tower = makeTower(antipode);
-    file->addChild(tower);
-    EXPECT_FALSE(globe.drawsAntipode());
-    update(*globe.root);
-    EXPECT_FALSE(globe.drawsAntipode());
-    const osg::Node* const before = tower;
-    file->removeChild(tower);
-    tower = nullptr;
-    std::vector<osg::ref_ptr<osg::Node>> others;
-    for (int i = 0; i < 1000 && tower != before; ++i) others.push_back(tower = makeTower(antipode));
-    // that is not always so
-    tower->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-    (void)tower->getBound();
-    file->addChild(tower);
-    EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove()));
+    AntipodeFile globe;
+    const osg::ref_ptr<osg::Node> tower = makeTower(globe.antipode);
+    const auto makeModel = [&tower] {
+        const osg::ref_ptr<osg::Group> model = new osg::Group;
+        model->addChild(tower);
+        return model;
+    };
+    osg::ref_ptr<osg::Group> model = makeModel();
+    globe.add(*model);
+    const osg::Group* const before = model;
+    globe.file->removeChild(model);
+    model = nullptr;
+    std::vector<osg::ref_ptr<osg::Group>> others;
+    for (int i = 0; i < 1000 && model != before; ++i) others.push_back(model = makeModel());
+    ignoreDepth(*model);
+    (void)model->getBound();
+    globe.file->addChild(model);
+    EXPECT_TRUE(globe.draws(*tower, MeshGlobe::fromAbove()));
+}
+
+// As a camera that follows a model does: OSG does not tell of the bound of that model then, and its sphere stays.
+TEST(WhatIgnoresDepth, IsNoticedInAModelWhoseBoundTheApplicationComputes) {
+    AntipodeFile globe;
+    const osg::ref_ptr<osg::Group> model = new osg::Group;
+    model->addChild(makeTower(globe.antipode, 1000.0f));
+    globe.add(*model);
+    const osg::ref_ptr<osg::Node> sign = makeTower(globe.antipode, 10.0f);
+    ignoreDepth(*sign);
+    model->addChild(sign);
+    (void)model->getBound();
+    EXPECT_TRUE(globe.draws(*sign, MeshGlobe::fromAbove()));
+}
+
+TEST(WhatIgnoresDepth, IsNoticedInAModelWhoseBoundIsSaidToHaveChanged) {
+    AntipodeFile globe;
+    const osg::ref_ptr<osg::Node> model = makeTower(globe.antipode);
+    globe.add(*model);
+    ignoreDepth(*model);
+    model->dirtyBound();
+    EXPECT_TRUE(globe.draws(*model, MeshGlobe::fromAbove()));
 }
 
 struct OwnBound : osg::Node::ComputeBoundingSphereCallback {

@@ -185,27 +185,24 @@ public:
         _toHere = _toHere * matrix;
     }
 
-    // Returns: whether the content may turn within its sphere without leaving the tile's bin; true also where the bin
-    // culls nothing.
-    bool fitInto(const AnalyticBinCullCallback& callback) {
+    void fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
-        if (!tile || !callback.getBin().valid()) return true;
+        if (!tile || !callback.getBin().valid()) return;
         const unsigned int reasons = reasonsAbove(drawn(callback));
         tile->doubt(reasons);
-        if (reasons & InstalledTile::NeverCulled) return true;
+        if (reasons & InstalledTile::NeverCulled) return;
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin& about = aboutOn(model, callback.getLocalToEcef());
-        if (!isOther && isHeld(about, callback.getBin())) return true;
+        if (!isOther && isHeld(about, callback.getBin())) return;
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
-        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return false;
+        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
         if (_isMerged) {
             Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
         } else {
             tile->doubt(InstalledTile::Outgrown);
         }
-        return false;
     }
 
 private:
@@ -260,17 +257,14 @@ private:
     std::optional<DrawnState> _drawn;
 };
 
-// Looks whether all tiles from the node upwards hold what stands among the node's children. Returns: whether they hold
-// all of its sphere.
-bool fitIntoTilesFrom(const osg::Node& node, Content content) {
-    bool hold = true;
+// Looks whether all tiles from the node upwards hold what stands among the node's children.
+void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (isExactly<AnalyticBinCullCallback>(*at))
-            hold = content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback())) && hold;
+            content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback()));
     }
     if (node.asTransform()) content.leave(*node.asTransform());
-    for (const osg::Group* const parent : node.getParents()) hold = fitIntoTilesFrom(*parent, content) && hold;
-    return hold;
+    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
 // Holds what a tile of osgTerrain draws in a vertical scale, which OSG's own bound is made without. Not valid: there is
@@ -437,14 +431,15 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
     return is;
 }
 
+// OSG does not tell of changes below a child whose bound the application has computed since.
 bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
-    if (i >= _held.size() || _held[i].node.get() != &child || !(_held[i].sphere == child.getBound())) return false;
-    return _held[i].state == State() || _held[i].state == stateOf(child);
+    return i < _held.size() && _held[i].node.get() == &child && _held[i].sphere == child.getBound() &&
+           _held[i].state == stateOf(child);
 }
 
-void ContentWatch::noteHeld(unsigned int i, const osg::Node& child, bool isHeldAnyhow) const {
+void ContentWatch::noteHeld(unsigned int i, const osg::Node& child) const {
     if (i >= _held.size()) _held.resize(i + 1);
-    _held[i] = {&child, child.getBound(), isHeldAnyhow ? State() : stateOf(child)};
+    _held[i] = {&child, child.getBound(), stateOf(child)};
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -483,8 +478,8 @@ void ContentWatch::check(const osg::Node& node) const {
         if (!sphere.valid() && !isNeverCulled(child)) continue;
         hasMore = hasMore || (!isLevel && isMergedNow());
         if (isUnchanged) continue;
-        const bool isHeldAnyhow = fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
-        if (isMergedNow()) noteHeld(i, child, isHeldAnyhow);
+        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        if (isMergedNow()) noteHeld(i, child);
     }
     // a level may be shown in place of those that were read
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);
@@ -492,7 +487,7 @@ void ContentWatch::check(const osg::Node& node) const {
     if (hasMore) noteMoreThanMesh(node);
     if (group || _fitted.empty() || isFitted(node, true)) return;
     // an osgTerrain tile that has other heights
-    (void)fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
+    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
     if (isMergedNow()) doubtMeshOf(node, false);
 }
 

@@ -73,7 +73,7 @@ private:
     struct Held {
         osg::observer_ptr<const osg::Node> node;  // another one may get its address
         osg::BoundingSphere sphere;
-        State state;  // as made: the bins hold all of the sphere
+        State state;
     };
 
     [[nodiscard]] static State stateOf(const osg::Node& mesh);
@@ -87,10 +87,10 @@ private:
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
     void check(const osg::Node& node) const;
-    // Whether the child was looked at before, with the sphere that it has: it is in the bins of the tiles above, or
-    // they are about to be expanded. What they hold without its whole sphere may not have changed in it.
+    // Whether the child was looked at before, as it is now: it is in the bins of the tiles above, or they are about to
+    // be expanded.
     [[nodiscard]] bool isHeld(unsigned int i, const osg::Node& child) const;
-    void noteHeld(unsigned int i, const osg::Node& child, bool isHeldAnyhow) const;
+    void noteHeld(unsigned int i, const osg::Node& child) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
