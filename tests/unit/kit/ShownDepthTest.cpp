@@ -7,6 +7,7 @@
 #include "../../../osgAnalyticBin/src/kit/cull/CullTraversal.h"
 #include "../../../osgAnalyticBin/src/kit/cull/ShownDepth.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileSelection.h"
+#include "../../../osgAnalyticBin/src/kit/tile/InstalledDatabase.h"
 #include "CameraGlobe.h"
 #include "DatabaseFixture.h"
 
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -84,6 +86,23 @@ TEST(ShownDepth, IsThatOfABasinThatLinesOfSightPassHighAboveAndNeverLowerThanDec
         EXPECT_NEAR(asker->depth, 9000.0, deepest > 3000.0 ? 1.0 : 6001.0);
         EXPECT_EQ(asker->eye->hides(something), deepest == 3000.0);
     }
+}
+
+// The system may give it the address of one that is gone.
+TEST(LastViews, OfADatabaseAreForgottenWithIt) {
+    struct Known : InstalledDatabase {
+        Known() : InstalledDatabase(new osg::EllipsoidModel) {}
+    };
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    CullTraversal& traversal = CullTraversal::of(*visitor);
+    osg::ref_ptr<Known> database = new Known;
+    traversal.lastView(*database).depth = 1000.0;
+    EXPECT_EQ(traversal.lastView(*database).depth, 1000.0);
+    const Known* const before = database;
+    database = nullptr;
+    std::vector<osg::ref_ptr<Known>> others;
+    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new Known);
+    EXPECT_EQ(traversal.lastView(*database).depth, 0.0);
 }
 
 }  // namespace

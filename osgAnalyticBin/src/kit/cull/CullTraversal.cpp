@@ -4,6 +4,7 @@
 #include "CullTraversal.h"
 
 #include "../GlmBridge.h"
+#include "../tile/InstalledDatabase.h"
 
 namespace osgAnalyticBin {
 
@@ -50,12 +51,15 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
 }
 
 CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database) {
-    const auto known = _lastViews.find(&database);
-    if (known != _lastViews.end()) return known->second;
     // those that are gone are not told apart from those out of view
     constexpr std::size_t kMostDatabases = 4096;
-    if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
-    return _lastViews[&database];
+    if (_lastViews.size() >= kMostDatabases && _lastViews.count(&database) == 0) _lastViews.clear();
+    LastView& last = _lastViews[&database];
+    if (last.of.get() != &database) {
+        last = LastView();
+        last.of = &database;
+    }
+    return last;
 }
 
 }  // namespace osgAnalyticBin

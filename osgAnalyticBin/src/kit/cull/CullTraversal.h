@@ -23,6 +23,7 @@
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Referenced>
+#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
 #include <cstddef>
@@ -109,6 +110,8 @@ public:
     /// What searches of this visitor keep from view to view.
     /// Results about a database.
     struct LastView {
+        /// Another one may get its address.
+        osg::observer_ptr<const InstalledDatabase> of;
         double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
         unsigned int waits = 0;            ///< views in a row in which finer ground below the eye was awaited
         unsigned int holes = 0;            ///< views since a search last did not come to nothing
@@ -118,7 +121,7 @@ public:
         osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
         DatabaseRest databaseRest;         ///< while bins gain nothing
     };
-    [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
+    [[nodiscard]] OSGANALYTICBIN_EXPORT LastView& lastView(const InstalledDatabase& database);
     GroundBelow ground;  ///< last found below the eye
     HidingView hiding;   ///< for nodes that are no tiles
     /// @}
