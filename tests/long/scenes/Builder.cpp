@@ -8,24 +8,8 @@
 #include "Painter.h"
 #include "Parts.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-
-#include <osg/Camera>
-#include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/LOD>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
 #include <osg/PositionAttitudeTransform>
 #include <osg/ProxyNode>
-#include <osg/Sequence>
-#include <osg/Switch>
-#include <osgDB/Options>
-#include <osgTerrain/Terrain>
-
-#include <algorithm>
-#include <cstdio>
-#include <map>
 
 namespace osgAnalyticBin::test {
 
@@ -88,15 +72,11 @@ AnalyticBin binOf(const DatabaseSpec& database, const TileKey& tile) {
 }
 
 osg::ref_ptr<osg::CoordinateSystemNode> makeGlobe(const DatabaseSpec& database, int number) {
-    osg::ref_ptr<osg::CoordinateSystemNode> globe;
-    if (database.mesh == MeshKind::Terrain) {
-        const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
-        terrain->setVerticalScale(static_cast<float>(database.verticalScale));
-        globe = terrain;
-    } else {
-        globe = new osg::CoordinateSystemNode;
-    }
-    globe->setName("#globe " + std::to_string(number));
+    const osg::ref_ptr<osgTerrain::Terrain> terrain =
+        database.mesh == MeshKind::Terrain ? new osgTerrain::Terrain : nullptr;
+    if (terrain) terrain->setVerticalScale(static_cast<float>(database.verticalScale));
+    const osg::ref_ptr<osg::CoordinateSystemNode> globe = terrain ? terrain.get() : new osg::CoordinateSystemNode;
+    globe->setName(nodeName(Hook::Globe, {number, 0, 0, 0}));
     if (database.isMap) {
         globe->setFormat("WKT");
         globe->setCoordinateSystem(kMapProjection);
@@ -129,7 +109,7 @@ osg::ref_ptr<osg::Node> placed(const DatabaseSpec& database, int number, osg::No
         above->setDataVariance(osg::Object::DYNAMIC);
         // its step is in its own frame
         const osg::Vec3d step = osg::Matrixd::transform3x3(database.drift, osg::Matrixd::inverse(here));
-        above->setUpdateCallback(new Mover(here, step, 0));
+        above->setUpdateCallback(makeMover(here, step, 0));
     }
     return above;
 }
@@ -153,20 +133,11 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
 }
 
 osg::ref_ptr<osg::Group> makeGroup(int kind) {
-    switch (kind) {
-        case 1:
-            return new osg::MatrixTransform;
-        case 2:
-            return new osg::PositionAttitudeTransform;
-        case 3:
-            return new osg::Geode;
-        case 4:
-            return new osg::Switch;
-        case 5:
-            return new CastingGroup;
-        default:
-            return new osg::Group;
-    }
+    using Made = osg::ref_ptr<osg::Group>;
+    const std::array<Made, kGroupClasses> classes{
+        new osg::Group, new osg::MatrixTransform, new osg::PositionAttitudeTransform,
+        new osg::Geode, new osg::Switch,          new CastingGroup};
+    return classes[static_cast<std::size_t>(kind)];
 }
 
 // Each group is above four of the next level. Returns: the lowest above a tile.
@@ -206,14 +177,14 @@ osg::ref_ptr<osg::Group> Builder::scene() const {
 }
 
 osg::ref_ptr<osg::Node> Builder::database(int number) const {
-    const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(number)];
+    const DatabaseSpec& database = _description.database(number);
     const osg::ref_ptr<osg::CoordinateSystemNode> globe = makeGlobe(database, number);
     addTiles(number, *globe);
     return placed(database, number, *globe);
 }
 
 void Builder::addTiles(int number, osg::Group& globe) const {
-    const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(number)];
+    const DatabaseSpec& database = _description.database(number);
     const auto isTree = [&](const Part& part) {
         return part.kind == PartKind::GroupTree && part.tile.database == number;
     };
@@ -292,27 +263,18 @@ osg::ref_ptr<osg::Node> Builder::tile(const TileKey& key) const {
 
 osg::ref_ptr<osg::Node> Builder::content(const TileKey& parent) const {
     const DatabaseSpec& database = spec(parent);
-    osg::ref_ptr<osg::Node> root;
     const Part* const adding = find(PartKind::Adding, parent);
     if (adding && adding->variant > 0) return houses(*adding);
-    if (database.fileShape == FileShape::Whole) {
-        root = mesh(parent, 2 * database.posts - 1, "#fine ");
-    } else {
-        const osg::ref_ptr<osg::Group> group = named<osg::Group>(nodeName(Hook::File, parent));
-        for (int i = 0; i < 4; ++i) {
-            const TileKey quarter = parent.quarter(i);
-            const osg::ref_ptr<osg::Node> tile = wrappedTile(quarter);
-            if (database.fileShape == FileShape::Slots) {
-                const osg::ref_ptr<osg::Group> slot = named<osg::Group>(nodeName(Hook::Slot, quarter));
-                slot->addChild(tile);
-                group->addChild(slot);
-            } else {
-                group->addChild(tile);
-            }
-        }
-        root = group;
+    if (database.fileShape == FileShape::Whole) return mesh(parent, 2 * database.posts - 1, "#fine ");
+    const osg::ref_ptr<osg::Group> group = named<osg::Group>(nodeName(Hook::File, parent));
+    for (int i = 0; i < 4; ++i) {
+        const TileKey quarter = parent.quarter(i);
+        osg::ref_ptr<osg::Group> slot = group;
+        if (database.fileShape == FileShape::Slots)
+            group->addChild(slot = named<osg::Group>(nodeName(Hook::Slot, quarter)));
+        slot->addChild(wrappedTile(quarter));
     }
-    return root;
+    return group;
 }
 
 osg::ref_ptr<osg::Node> Builder::file(const std::string& name) const {
@@ -388,8 +350,11 @@ osg::ref_ptr<osg::Node> Builder::houses(const Part& part) const {
 }
 
 osg::ref_ptr<osg::Node> Builder::wrap(const Part& part, osg::Node& node) const {
-    const DatabaseSpec& database = spec(part.tile);
-    const std::string name = ' ' + std::to_string(part.id);
+    const auto below = [&](const osg::ref_ptr<osg::Group>& above, const char* word) {
+        above->setName(std::string(word) + std::to_string(part.id));
+        above->addChild(&node);
+        return above;
+    };
     switch (part.kind) {
         case PartKind::Switch: {
             const osg::ref_ptr<osg::Switch> above = named<osg::Switch>("#switch " + part.tile.text());
@@ -398,55 +363,42 @@ osg::ref_ptr<osg::Node> Builder::wrap(const Part& part, osg::Node& node) const {
             return above;
         }
         case PartKind::Sequence: {
-            const osg::ref_ptr<osg::Sequence> above = named<osg::Sequence>("#sequence" + name);
-            above->addChild(&node, 1.0);
-            above->addChild(other(part.tile), 1.0);
+            const osg::ref_ptr<osg::Sequence> above = new osg::Sequence;
+            (void)below(above, "#sequence ");
+            above->addChild(other(part.tile));
+            for (const unsigned int i : {0u, 1u}) above->setTime(i, 1.0);
             above->setInterval(osg::Sequence::LOOP, 0, -1);
             above->setDuration(1.0f, -1);
             above->setMode(osg::Sequence::START);
             return above;
         }
         case PartKind::Lod: {
-            const osg::ref_ptr<osg::LOD> above = named<osg::LOD>("#lod" + name);
-            const auto cut = static_cast<float>(part.amount * radiusOf(database, part.tile.level));
-            above->addChild(&node, 0.0f, cut);
+            const osg::ref_ptr<osg::LOD> above = new osg::LOD;
+            const auto cut = static_cast<float>(part.amount * radiusOf(spec(part.tile), part.tile.level));
+            (void)below(above, "#lod ");
+            above->setRange(0, 0.0f, cut);
             above->addChild(other(part.tile), cut, kFar);
             return above;
         }
         case PartKind::Paged: {
-            const osg::ref_ptr<osg::PagedLOD> above = named<osg::PagedLOD>("#paged" + name);
-            above->addChild(&node, 0.0f, kFar);
+            const osg::ref_ptr<osg::PagedLOD> above = new osg::PagedLOD;
+            (void)below(above, "#paged ");
+            above->setRange(0, 0.0f, kFar);
             return above;
         }
-        case PartKind::Proxy: {
-            const osg::ref_ptr<osg::ProxyNode> above = named<osg::ProxyNode>("#proxy" + name);
-            above->addChild(&node);
-            return above;
-        }
-        case PartKind::PlainGroup: {
-            const osg::ref_ptr<osg::Group> above = named<osg::Group>("#group" + name);
-            above->addChild(&node);
-            return above;
-        }
-        case PartKind::Turned: {
-            const osg::ref_ptr<osg::Group> above =
-                transformed("#turned" + name, turned(database, part.amount), part.variant);
-            above->addChild(&node);
-            return above;
-        }
-        case PartKind::Caster: {
-            if (part.hook != Hook::Tile) return &node;
-            const osg::ref_ptr<osg::Group> above = new CastingGroup;
-            above->setName("#caster" + name);
-            above->addChild(&node);
-            return above;
-        }
+        case PartKind::Proxy:
+            return below(new osg::ProxyNode, "#proxy ");
+        case PartKind::PlainGroup:
+            return below(new osg::Group, "#group ");
+        case PartKind::Turned:
+            return below(transformed("", turned(spec(part.tile), part.amount), part.variant), "#turned ");
+        case PartKind::Caster:
+            return part.hook == Hook::Tile ? below(new CastingGroup, "#caster ").get() : &node;
         case PartKind::MovingTiles: {
-            const osg::ref_ptr<osg::MatrixTransform> above = named<osg::MatrixTransform>("#moving" + name);
+            const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
             above->setDataVariance(osg::Object::DYNAMIC);
-            above->setUpdateCallback(new Mover(osg::Matrixd(), osg::Vec3d(0.0, 0.0, part.amount), 0));
-            above->addChild(&node);
-            return above;
+            above->setUpdateCallback(makeMover(osg::Matrixd(), osg::Vec3d(0.0, 0.0, part.amount), 0));
+            return below(above, "#moving ");
         }
         default:
             return &node;

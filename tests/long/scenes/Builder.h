@@ -5,11 +5,6 @@
 
 #include "Description.h"
 
-#include <osg/Group>
-
-#include <string>
-#include <vector>
-
 namespace osgAnalyticBin::test {
 
 /// Builds the scene of a description, and the files of its databases, as often as one likes.
@@ -25,9 +20,7 @@ public:
     [[nodiscard]] osg::ref_ptr<osg::Node> file(const std::string& name) const;
 
 private:
-    [[nodiscard]] const DatabaseSpec& spec(const TileKey& tile) const {
-        return _description.databases[static_cast<std::size_t>(tile.database)];
-    }
+    [[nodiscard]] const DatabaseSpec& spec(const TileKey& tile) const { return _description.database(tile.database); }
     [[nodiscard]] osg::ref_ptr<osg::Node> database(int number) const;
     void addTiles(int number, osg::Group& globe) const;
     [[nodiscard]] const Part* find(PartKind kind, const TileKey& tile) const;

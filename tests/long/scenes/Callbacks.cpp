@@ -3,16 +3,7 @@
 
 #include "Callbacks.h"
 
-#include <osg/FrameStamp>
-#include <osg/LOD>
-#include <osg/MatrixTransform>
-#include <osg/Sequence>
-#include <osg/Switch>
-#include <osgDB/DatabasePager>
-#include <osgTerrain/TerrainTile>
-#include <osgUtil/CullVisitor>
-
-#include <utility>
+#include "States.h"
 
 namespace osgAnalyticBin::test {
 
@@ -20,72 +11,207 @@ namespace {
 
 std::string complaint;
 
+/// What osg::clone() makes of a class by its own copy constructor.
+template <class Self, class Base>
+class Cloned : public Base {
+public:
+    [[nodiscard]] osg::Object* cloneType() const override { return new Self; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        Self* const copy = new Self(static_cast<const Self&>(*this));
+        if constexpr (std::is_base_of_v<osg::Callback, Base>)
+            copy->setNestedCallback(copyop(copy->getNestedCallback()));
+        return copy;
+    }
+};
+
+/// Does something in place of the traversal, which it may go on with.
+class Acting : public Cloned<Acting, osg::NodeCallback> {
+public:
+    using Action = std::function<void(Acting&, osg::Node*, osg::NodeVisitor*)>;
+    explicit Acting(Action action = {}) : _action(std::move(action)) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        _action ? _action(*this, node, nv) : static_cast<void>(traverse(node, nv));
+    }
+
+private:
+    Action _action;
+};
+
+/// Computes the bound that OSG computes without it, or a wrong one, or none: see Kind.
+class OwnBound : public Cloned<OwnBound, osg::Node::ComputeBoundingSphereCallback> {
+public:
+    enum Kind { Right, Elsewhere, Small, Unknown };
+    explicit OwnBound(Kind kind = Right) : _kind(kind) {}
+    [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override {
+        const osg::BoundingSphere bound = node.computeBound();
+        if (_kind == Unknown) return {};
+        return {bound.center() * (_kind == Elsewhere ? 20.0f : 1.0f), _kind == Small ? 1.0f : bound.radius()};
+    }
+
+private:
+    Kind _kind;
+};
+
+/// Computes the box that OSG computes without it.
+struct OwnBox : Cloned<OwnBox, osg::Drawable::ComputeBoundingBoxCallback> {
+    [[nodiscard]] osg::BoundingBox computeBound(const osg::Drawable& drawable) const override {
+        return drawable.computeBoundingBox();
+    }
+};
+
+/// Leaves a drawable out, or keeps it.
+struct DrawableLeaverOut : Cloned<DrawableLeaverOut, osg::DrawableCullCallback> {
+    explicit DrawableLeaverOut(bool isOut = false) : leavesOut(isOut) {}
+    bool cull(osg::NodeVisitor*, osg::Drawable*, osg::RenderInfo*) const override { return leavesOut; }
+    bool leavesOut;
+};
+
+/// Draws a drawable, or nothing in its place.
+struct OwnDrawing : Cloned<OwnDrawing, osg::Drawable::DrawCallback> {
+    explicit OwnDrawing(bool isDrawn = true) : draws(isDrawn) {}
+    void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
+        if (draws) drawable->drawImplementation(info);
+    }
+    bool draws;
+};
+
+bool isCull(const osg::NodeVisitor& nv) {
+    return nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
+}
+
 // Whether all children are traversed.
 bool isPlainGroup(const osg::Node& node) {
     return node.asGroup() && !node.asSwitch() && !dynamic_cast<const osg::LOD*>(&node) &&
            !dynamic_cast<const osg::Sequence*>(&node) && !dynamic_cast<const osgTerrain::TerrainTile*>(&node);
 }
 
+// Does nothing, or leaves its node out of the odd frames.
+Acting* makePasser(bool skipsOddFrames) {
+    return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        if (!isCull(*nv) || !skipsOddFrames || nv->getTraversalNumber() % 2 == 0) self.traverse(node, nv);
+    });
+}
+
+// Leaves a child of its group out of the cull traversal, or all of a node that is no plain group. `number`: of the
+// children, counted around.
+Acting* makeLeaverOut(unsigned int number) {
+    return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        if (!isCull(*nv)) return static_cast<void>(self.traverse(node, nv));
+        osg::Group* const group = isPlainGroup(*node) ? node->asGroup() : nullptr;
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+            if (i != number % group->getNumChildren()) group->getChild(i)->accept(*nv);
+        }
+    });
+}
+
+// Pushes a state in the cull traversal.
+Acting* makeStatePusher(const Part& part) {
+    const osg::ref_ptr<osg::StateSet> states = new osg::StateSet;
+    setState(part.variant, part.value, *states);
+    return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        osgUtil::CullVisitor* const visitor = nv->asCullVisitor();
+        if (visitor) visitor->pushStateSet(states);
+        self.traverse(node, nv);
+        if (visitor) visitor->popStateSet();
+    });
+}
+
+// Sets the traversal mask for what is below.
+Acting* makeMasker(osg::Node::NodeMask mask) {
+    return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        const osg::Node::NodeMask before = nv->getTraversalMask();
+        if (isCull(*nv)) nv->setTraversalMask(before & mask);
+        self.traverse(node, nv);
+        nv->setTraversalMask(before);
+    });
+}
+
+// Takes itself off when it has run.
+Acting* makeOneShot() {
+    return new Acting([](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        const osg::ref_ptr<Acting> keep(&self);
+        self.traverse(node, nv);
+        node->removeUpdateCallback(&self);
+    });
+}
+
+// In front of what is there, or behind it.
+void hang(const osg::ref_ptr<osg::NodeCallback>& callback, bool isNested, osg::Node& node) {
+    if (isNested) return node.addCullCallback(callback);
+    callback->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(callback);
+}
+
+// What is masked is one child.
+void addMasker(const Part& part, bool isNested, osg::Node& node) {
+    constexpr osg::Node::NodeMask kMasked = 2;
+    osg::Group* const group = node.asGroup();
+    if (!group || group->getNumChildren() == 0) return;
+    group->getChild(static_cast<unsigned int>(part.variant) % group->getNumChildren())->setNodeMask(kMasked);
+    hang(makeMasker(~kMasked), isNested, node);
+}
+
+void setBoundCallback(osg::Node::ComputeBoundingSphereCallback* callback, osg::Node& node) {
+    node.setComputeBoundingSphereCallback(callback);
+    node.dirtyBound();
+}
+
+// Variants: whether it leaves out, or draws nothing.
+void setDrawableCallback(const Part& part, osg::Drawable& drawable) {
+    const bool isOdd = part.variant % 2 == 1;
+    switch (part.kind) {
+        case PartKind::DrawableCull:
+            return drawable.setCullCallback(new DrawableLeaverOut(isOdd));
+        case PartKind::DrawableDraw:
+            return drawable.setDrawCallback(new OwnDrawing(!isOdd));
+        case PartKind::DrawableUpdate:
+            return drawable.setUpdateCallback(new osg::DrawableUpdateCallback);
+        default:
+            drawable.setComputeBoundingBoxCallback(new OwnBox);
+            drawable.dirtyBound();
+    }
+}
+
 }  // namespace
 
-void Mover::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    auto* transform = dynamic_cast<osg::MatrixTransform*>(node);
-    if (transform && nv->getFrameStamp()) {
-        const int frames = static_cast<int>(nv->getFrameStamp()->getFrameNumber()) - _frame;
-        transform->setMatrix(osg::Matrixd::translate(_step * frames) * _start);
+osg::ref_ptr<osg::NodeCallback> makeMover(const osg::Matrixd& start, const osg::Vec3d& step, int frame) {
+    return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        auto* const transform = dynamic_cast<osg::MatrixTransform*>(node);
+        if (transform && nv->getFrameStamp()) {
+            const int frames = static_cast<int>(nv->getFrameStamp()->getFrameNumber()) - frame;
+            transform->setMatrix(osg::Matrixd::translate(step * frames) * start);
+        }
+        self.traverse(node, nv);
+    });
+}
+
+void addCallback(const Part& part, osg::Node& node) {
+    const bool isNested = part.id % 2 == 0;
+    switch (part.kind) {
+        case PartKind::UserCull:
+            return hang(makePasser(part.variant >= 2), part.variant % 2 == 0, node);
+        case PartKind::UserUpdate:
+            return node.addUpdateCallback(makePasser(false));
+        case PartKind::LeavesOut:
+            return hang(makeLeaverOut(static_cast<unsigned int>(part.variant)), isNested, node);
+        case PartKind::OneShot:
+            return node.addUpdateCallback(makeOneShot());
+        case PartKind::PushesState:
+            return hang(makeStatePusher(part), isNested, node);
+        case PartKind::Masks:
+            return addMasker(part, isNested, node);
+        case PartKind::BoundCallback:
+            return setBoundCallback(new OwnBound(static_cast<OwnBound::Kind>(part.variant)), node);
+        case PartKind::NoBoundCallback:
+            return setBoundCallback(nullptr, node);
+        default:
+            if (node.asDrawable()) setDrawableCallback(part, *node.asDrawable());
     }
-    traverse(node, nv);
 }
-
-void Passer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const bool isCull = nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
-    if (isCull && _skipsOddFrames && nv->getTraversalNumber() % 2 == 1) return;
-    traverse(node, nv);
-}
-
-void LeaverOut::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    if (nv->getVisitorType() != osg::NodeVisitor::CULL_VISITOR) {
-        traverse(node, nv);
-        return;
-    }
-    osg::Group* const group = isPlainGroup(*node) ? node->asGroup() : nullptr;
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        if (i != _number % group->getNumChildren()) group->getChild(i)->accept(*nv);
-    }
-}
-
-void StatePusher::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    osgUtil::CullVisitor* const visitor = _states ? nv->asCullVisitor() : nullptr;
-    if (visitor) visitor->pushStateSet(_states);
-    traverse(node, nv);
-    if (visitor) visitor->popStateSet();
-}
-
-void Masker::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const osg::Node::NodeMask before = nv->getTraversalMask();
-    if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) nv->setTraversalMask(before & _mask);
-    traverse(node, nv);
-    nv->setTraversalMask(before);
-}
-
-void OneShotCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const osg::ref_ptr<OneShotCallback> keep(this);
-    traverse(node, nv);
-    node->removeUpdateCallback(this);
-}
-
-bool DrawableLeaverOut::cull(osg::NodeVisitor* /*nv*/, osg::Drawable* /*drawable*/, osg::RenderInfo* /*info*/) const {
-    return _leavesOut;
-}
-
-void OwnDrawing::drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const {
-    if (_draws) drawable->drawImplementation(info);
-}
-
-CastingGroup::CastingGroup(const CastingGroup& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
 
 void CastingGroup::traverse(osg::NodeVisitor& nv) {
-    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+    if (isCull(nv)) {
         osg::NodeVisitor::DatabaseRequestHandler* const handler = nv.getDatabaseRequestHandler();
         if (!dynamic_cast<osgUtil::CullVisitor*>(&nv))
             complaint = "a visitor of type CULL_VISITOR is no CullVisitor";

@@ -5,8 +5,6 @@
 
 #include <osg/Math>
 
-#include <algorithm>
-
 namespace osgAnalyticBin::test {
 
 bool TileKey::operator==(const TileKey& other) const {
@@ -39,38 +37,17 @@ double Description::turnOf(const TileKey& tile) const {
     return turn;
 }
 
+const std::vector<const char*>& hookWords() {
+    static const std::vector<const char*> words{"root", "globe",    "tile",  "own",   "mesh", "geode", "file",
+                                                "slot", "drawable", "above", "place", "view", "model", "tower"};
+    return words;
+}
+
 std::string nodeName(Hook hook, const TileKey& tile) {
-    switch (hook) {
-        case Hook::Root:
-            return "#root";
-        case Hook::Globe:
-            return "#globe " + std::to_string(tile.database);
-        case Hook::Tile:
-            return "#tile " + tile.text();
-        case Hook::Own:
-            return "#own " + tile.text();
-        case Hook::Mesh:
-            return "#mesh " + tile.text();
-        case Hook::Geode:
-            return "#geode " + tile.text();
-        case Hook::File:
-            return "#file " + tile.text();
-        case Hook::Slot:
-            return "#slot " + tile.text();
-        case Hook::Drawable:
-            return "#drawable " + tile.text();
-        case Hook::Above:
-            return "#above " + tile.text();
-        case Hook::Place:
-            return "#place " + std::to_string(tile.database);
-        case Hook::View:
-            return "#view";
-        case Hook::Model:
-            return "#model 0";
-        case Hook::Tower:
-            return "#tower 0";
-    }
-    return {};
+    const std::string name = std::string("#") + hookWords()[static_cast<std::size_t>(hook)];
+    if (hook == Hook::Root || hook == Hook::View) return name;
+    if (hook == Hook::Model || hook == Hook::Tower) return name + " 0";
+    return name + ' ' + (hook == Hook::Globe || hook == Hook::Place ? std::to_string(tile.database) : tile.text());
 }
 
 bool hasScaledTerrain(const Description& description) {

@@ -6,15 +6,11 @@
 
 #pragma once
 
+#include "Includes.h"
+
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osg/CullSettings>
-#include <osg/Matrixd>
-#include <osg/Vec3d>
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -212,9 +208,14 @@ struct Description {
     std::vector<Part> parts;
     std::vector<ViewSpec> views;  ///< one a frame; the first frame is 1
 
+    [[nodiscard]] const DatabaseSpec& database(int number) const { return databases[static_cast<std::size_t>(number)]; }
+
     /// Radians by which the frame of a tile is turned about the axis of its database.
     [[nodiscard]] double turnOf(const TileKey& tile) const;
 };
+
+/// In the order of the enumerators of Hook.
+[[nodiscard]] const std::vector<const char*>& hookWords();
 
 /// The name of the node that a hook is.
 [[nodiscard]] std::string nodeName(Hook hook, const TileKey& tile);

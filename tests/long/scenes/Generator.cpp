@@ -1,15 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Generator.h"
-
 #include "Meshes.h"
-#include "RandomApplication.h"
-#include "RandomDatabases.h"
-#include "SceneViews.h"
-
-#include <algorithm>
-#include <array>
+#include "RandomScene.h"
 
 namespace osgAnalyticBin::test {
 
@@ -39,9 +32,7 @@ public:
     }
 
 private:
-    [[nodiscard]] const DatabaseSpec& database() const {
-        return _description.databases[static_cast<std::size_t>(_number)];
-    }
+    [[nodiscard]] const DatabaseSpec& database() const { return _description.database(_number); }
     [[nodiscard]] int anyFrame() { return _random.integer(1, _frames); }
     [[nodiscard]] int anyLevel() { return _random.chance(0.6) ? 0 : _random.integer(0, 2); }
 
@@ -236,10 +227,6 @@ private:
     int _number = 0;
 };
 
-}  // namespace
-
-namespace {
-
 // Plain groups with one mesh each, in files.
 void chooseSlots(DatabaseSpec& database) {
     database.mesh = MeshKind::Local;
@@ -302,10 +289,6 @@ void chooseTheme(Random& random, Description& description) {
         database.options.horizonUse = HorizonUse::Declared;
     }
 }
-
-}  // namespace
-
-namespace {
 
 void addTraffic(Random& random, Description& description, int frames) {
     if (!random.chance(description.theme == Theme::Hills ? 0.7 : 0.15)) return;

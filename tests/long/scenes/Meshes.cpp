@@ -6,21 +6,10 @@
 #include "Callbacks.h"
 #include "States.h"
 
-#include <osg/Billboard>
-#include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osg/PrimitiveSetIndirect>
-#include <osgTerrain/Layer>
 #include <osgTerrain/Locator>
-#include <osgTerrain/TerrainTile>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <support/GridMesh.h>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 
@@ -349,7 +338,7 @@ osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part
     if (part.kind == PartKind::Unculled) model->setCullingActive(false);
     const bool isMoving = part.kind == PartKind::Vehicle;
     model->setDataVariance(isMoving ? osg::Object::DYNAMIC : osg::Object::STATIC);
-    if (isMoving) model->setUpdateCallback(new Mover(here, osg::Vec3d(part.amount, 0.0, 0.0), part.frame));
+    if (isMoving) model->setUpdateCallback(makeMover(here, osg::Vec3d(part.amount, 0.0, 0.0), part.frame));
     return model;
 }
 

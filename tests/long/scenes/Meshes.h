@@ -7,11 +7,6 @@
 
 #include "Description.h"
 
-#include <osg/Drawable>
-#include <osg/Group>
-
-#include <string>
-
 namespace osgAnalyticBin::test {
 
 /// Extents of a tile: radians, in a map metres.

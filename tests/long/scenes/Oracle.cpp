@@ -3,11 +3,7 @@
 
 #include "Oracle.h"
 
-#include "Triangles.h"
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
+#include <osg/TriangleIndexFunctor>
 
 namespace osgAnalyticBin::test {
 
@@ -60,7 +56,7 @@ private:
 
     // Whether terrain is above the eye, or above the near plane where the line of sight begins.
     [[nodiscard]] bool isUnderground(const MetDatabase& met, const Sight& sight) {
-        const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(met.number)];
+        const DatabaseSpec& database = _description.database(met.number);
         const auto hasTerrainAbove = [&](const osg::Vec3d& point) {
             osg::Vec3d up(0.0, 0.0, 1.0);
             if (!database.isMap) up = point * osg::Matrixd::inverse(met.modelView);
@@ -134,6 +130,60 @@ std::optional<FalseCull> findVisiblePoint(const std::string& key, const Delivere
     return std::nullopt;
 }
 
+// Triangles are taken a little larger than they are: neighbours that are rounded to float leave no cracks.
+constexpr double kEnlarged = 2e-3;
+// A point is not behind what it touches.
+constexpr double kNearlyThere = 1.0 - 1e-6;
+
+struct IndexCollector {
+    std::vector<unsigned int> indices;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) { indices.insert(indices.end(), {a, b, c}); }
+};
+
+// Source: Moeller and Trumbore 1997.
+bool meets(const Triangle& t, const osg::Vec3d& from, const osg::Vec3d& along) {
+    const osg::Vec3d e1 = t[1] - t[0];
+    const osg::Vec3d e2 = t[2] - t[0];
+    const osg::Vec3d p = along ^ e2;
+    const double determinant = e1 * p;
+    if (determinant == 0.0) return false;
+    const osg::Vec3d s = from - t[0];
+    const double u = (s * p) / determinant;
+    if (!(u >= -kEnlarged && u <= 1.0 + kEnlarged)) return false;
+    const osg::Vec3d q = s ^ e1;
+    const double v = (along * q) / determinant;
+    if (!(v >= -kEnlarged && u + v <= 1.0 + kEnlarged)) return false;
+    const double at = (e2 * q) / determinant;
+    return at > 0.0 && at < kNearlyThere;
+}
+
+double largestScale(const Description& description, const DatabaseSpec& database, int number) {
+    double largest = std::abs(database.verticalScale);
+    for (const Part& part : description.parts) {
+        if (part.kind == PartKind::SetScale && part.tile.database == number)
+            largest = std::max(largest, std::abs(part.amount));
+    }
+    return std::max(largest, 1.0);
+}
+
+// Metres.
+double mostRaised(const Description& description, int number) {
+    double most = 0.0;
+    for (const Part& part : description.parts) {
+        if (part.kind == PartKind::Raise && part.tile.database == number) most = std::max(most, part.amount);
+    }
+    return most;
+}
+
+// Whether bins hold whole skirts in all frames.
+bool holdsAllSkirts(const Description& description, const DatabaseSpec& database) {
+    return database.options.skirts == SkirtUse::All &&
+           std::all_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
+               const bool setsOptions = part.kind == PartKind::SetOptions || part.kind == PartKind::Install;
+               return !setsOptions || part.options.skirts == SkirtUse::All;
+           });
+}
+
 }  // namespace
 
 std::optional<FalseCull> findFalseCull(const Description& description, const Delivery& without, const Delivery& with,
@@ -150,6 +200,88 @@ std::optional<FalseCull> findFalseCull(const Description& description, const Del
         if (auto found = findVisiblePoint(key, delivered, known->second, counts)) return found;
     }
     return std::nullopt;
+}
+
+Triangles::Triangles(const osg::Drawable& drawable, const osg::Matrixd& matrix) {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const auto* vertices = geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+    if (!vertices) return;
+    std::vector<osg::Vec3d> points;
+    points.reserve(vertices->size());
+    for (const osg::Vec3& vertex : *vertices) points.push_back(osg::Vec3d(vertex) * matrix);
+    for (const osg::Vec3d& point : points) center += point / static_cast<double>(points.size());
+    for (const osg::Vec3d& point : points) radius = std::max(radius, (point - center).length());
+    radius *= 1.0 + kEnlarged;
+    for (const auto& primitives : geometry->getPrimitiveSetList()) {
+        osg::TriangleIndexFunctor<IndexCollector> collector;
+        primitives->accept(collector);
+        std::vector<Triangle>& target = primitives->getMode() == GL_TRIANGLES ? surface : skirts;
+        for (std::size_t i = 0; i + 2 < collector.indices.size(); i += 3)
+            target.push_back(
+                {points[collector.indices[i]], points[collector.indices[i + 1]], points[collector.indices[i + 2]]});
+    }
+}
+
+bool Triangles::block(const osg::Vec3d& from, const osg::Vec3d& to) const {
+    const osg::Vec3d along = to - from;
+    const double square = along.length2();
+    const double t = square > 0.0 ? std::clamp(((center - from) * along) / square, 0.0, 1.0) : 0.0;
+    if ((from + along * t - center).length2() > radius * radius) return false;
+    const auto meetsOne = [&](const Triangle& triangle) { return meets(triangle, from, along); };
+    return std::any_of(surface.begin(), surface.end(), meetsOne) || std::any_of(skirts.begin(), skirts.end(), meetsOne);
+}
+
+// doc/limits.md:
+// - "Bins hold those parts of skirts that an eye above the terrain can see through cracks.": eyes below the highest
+//   terrain.
+// - The horizon needs "a near plane that does not cut visible terrain away": lines of sight that begin below it.
+// - "Through a slit between tiles, pixels may show what is far behind", and the proofs assume that skirts close the
+//   cracks (doc/theory/tiles.md, section 4): databases without skirts.
+std::vector<AllowedOccluder> allowedOccluders(const Description& description) {
+    std::vector<AllowedOccluder> result;
+    for (std::size_t i = 0; i < description.databases.size(); ++i) {
+        const DatabaseSpec& database = description.databases[i];
+        if (database.isMap && description.theme != Theme::Hills) continue;
+        const int number = static_cast<int>(i);
+        const double relief = database.relief * largestScale(description, database, number);
+        const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
+        result.push_back({number, relief, !holdsAllSkirts(description, database), fromEverywhere});
+        // raised terrain that the near plane cuts, from eyes above it
+        if (const double raised = mostRaised(description, number); raised > 0.0)
+            result.push_back({number, relief + raised, false, false});
+    }
+    return result;
+}
+
+bool mayHide(const AllowedOccluder& occluder, const Description& description, const MetDatabase& met,
+             const Sight& sight) {
+    const DatabaseSpec& database = description.database(met.number);
+    const osg::Matrixd toDatabase = osg::Matrixd::inverse(met.modelView);
+    // The database's surface, so many metres higher, is the unit sphere there, or the plane z = 1.
+    const auto scaled = [&](const osg::Vec3d& point, double altitude) {
+        const osg::Vec3d p = point * toDatabase;
+        if (database.isMap) return osg::Vec3d(0.0, 0.0, 1.0 + (p.z() - altitude) / database.size());
+        return osg::Vec3d(p.x() / (database.equatorial + altitude), p.y() / (database.equatorial + altitude),
+                          p.z() / (database.polar + altitude));
+    };
+    const auto heightOver = [&](const osg::Vec3d& p) { return (database.isMap ? p.z() : p.length()) - 1.0; };
+    const bool isBelow = heightOver(scaled(sight.start, occluder.highest)) < 0.0;
+    const bool isEyeBelow = sight.isPerspective && heightOver(scaled(osg::Vec3d(), occluder.highest)) < 0.0;
+    const bool isAllowed = isBelow && (occluder.fromBelow || !isEyeBelow);
+    if (!isAllowed && !occluder.fromEverywhere) return false;
+    const auto passesBehind = [&](const osg::Vec3d& start) {
+        // from below the terrain, whatever is lower than the eye
+        const double unit = database.isMap ? database.size() : database.polar;
+        const double own = heightOver(scaled(start, 0.0)) * unit - 1.0;
+        const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
+        const osg::Vec3d from = scaled(start, altitude);
+        const osg::Vec3d along = scaled(sight.end, altitude) - from;
+        const double square = along.length2();
+        const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
+        return heightOver(from + along * t) < 0.0;
+    };
+    // a near plane within the globe has cut away what hides from the eye
+    return passesBehind(sight.start) || (isBelow && sight.isPerspective && passesBehind(osg::Vec3d()));
 }
 
 }  // namespace osgAnalyticBin::test

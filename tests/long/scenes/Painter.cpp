@@ -4,13 +4,10 @@
 #include "Painter.h"
 
 #include <osg/ContextData>
-#include <osg/FrameStamp>
 #include <osg/GLObjects>
 #include <osg/RenderInfo>
 #include <osg/Uniform>
 #include <osgViewer/GraphicsWindow>
-
-#include <stdexcept>
 
 USE_GRAPHICSWINDOW()
 

@@ -5,16 +5,11 @@
 
 #pragma once
 
+#include "Includes.h"
+
 #include <osg/GraphicsContext>
-#include <osg/Program>
-#include <osg/StateSet>
 #include <osg/ref_ptr>
 #include <osgUtil/RenderStage>
-
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

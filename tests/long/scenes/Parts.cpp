@@ -7,24 +7,10 @@
 #include "Meshes.h"
 #include "States.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
-#include <osg/Geode>
-#include <osg/Image>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osg/PolygonMode>
-#include <osg/Switch>
 #include <osgTerrain/GeometryTechnique>
-#include <osgTerrain/Layer>
-#include <osgTerrain/Terrain>
-#include <osgTerrain/TerrainTile>
 #include <osgTerrain/ValidDataOperator>
-
-#include <algorithm>
-#include <string>
-#include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 
@@ -52,7 +38,7 @@ private:
 
 /// From the frame of a hook's children to the database's own.
 osg::Matrixd frameOf(const Part& part, const Description& description, const osg::Node& node) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const osg::Matrixd turn = turned(database, description.turnOf(part.tile));
     switch (part.hook) {
         case Hook::Root:
@@ -78,7 +64,7 @@ osg::Matrixd frameOf(const Part& part, const Description& description, const osg
 void addModel(const Part& part, const Description& description, osg::Node& node) {
     osg::Group* group = node.asGroup();
     if (!group) return;
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const osg::ref_ptr<osg::Node> model = makeModel(database, part, frameOf(part, description, node));
     if (part.asks) model->addCullCallback(new HiddenByTerrainCallback);
     group->addChild(model);
@@ -88,7 +74,7 @@ void addModel(const Part& part, const Description& description, osg::Node& node)
 void addTraffic(const Part& part, const Description& description, osg::Node& node) {
     osg::Group* const group = node.asGroup();
     if (!group) return;
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const osg::Matrixd frame = frameOf(part, description, node);
     const osg::ref_ptr<osg::Group> traffic = new osg::Group;
     traffic->setName("#model " + std::to_string(part.id));
@@ -114,35 +100,6 @@ void addTraffic(const Part& part, const Description& description, osg::Node& nod
     group->addChild(traffic);
 }
 
-// In front of what is there, or behind it.
-void hang(const osg::ref_ptr<osg::NodeCallback>& callback, bool isNested, osg::Node& node) {
-    if (isNested) return node.addCullCallback(callback);
-    callback->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(callback);
-}
-
-void addCullCallback(const Part& part, osg::Node& node) {
-    hang(new Passer(part.variant >= 2), part.variant % 2 == 0, node);
-}
-
-void addUserCallback(const Part& part, osg::Node& node) {
-    const bool isNested = part.id % 2 == 0;
-    if (part.kind == PartKind::LeavesOut)
-        return hang(new LeaverOut(static_cast<unsigned int>(part.variant)), isNested, node);
-    if (part.kind == PartKind::OneShot) return node.addUpdateCallback(new OneShotCallback);
-    if (part.kind == PartKind::PushesState) {
-        const osg::ref_ptr<osg::StateSet> states = new osg::StateSet;
-        setState(part.variant, part.value, *states);
-        return hang(new StatePusher(states), isNested, node);
-    }
-    // what is masked is one child
-    constexpr osg::Node::NodeMask kMasked = 2;
-    osg::Group* const group = node.asGroup();
-    if (!group || group->getNumChildren() == 0) return;
-    group->getChild(static_cast<unsigned int>(part.variant) % group->getNumChildren())->setNodeMask(kMasked);
-    hang(new Masker(~kMasked), isNested, node);
-}
-
 // Variants: masked; taken away; a plain group in its place; levels that are shown only from nearby.
 void vanish(int variant, osg::Node& node) {
     if (variant == 0) return node.setNodeMask(0);
@@ -154,36 +111,9 @@ void vanish(int variant, osg::Node& node) {
         variant == 1 ? parent->removeChild(gone) : parent->replaceChild(gone, new osg::Group);
 }
 
-// Variants: see OwnBound.
-void setBoundCallback(const Part& part, osg::Node& node) {
-    if (part.kind == PartKind::NoBoundCallback)
-        node.setComputeBoundingSphereCallback(nullptr);
-    else
-        node.setComputeBoundingSphereCallback(new OwnBound(static_cast<OwnBound::Kind>(part.variant)));
-    node.dirtyBound();
-}
-
-// Variants: whether it leaves out, or draws nothing.
-void setDrawableCallback(const Part& part, osg::Node& node) {
-    osg::Drawable* const drawable = node.asDrawable();
-    if (!drawable) return;
-    const bool isOdd = part.variant % 2 == 1;
-    switch (part.kind) {
-        case PartKind::DrawableCull:
-            return drawable->setCullCallback(new DrawableLeaverOut(isOdd));
-        case PartKind::DrawableDraw:
-            return drawable->setDrawCallback(new OwnDrawing(!isOdd));
-        case PartKind::DrawableUpdate:
-            return drawable->setUpdateCallback(new osg::DrawableUpdateCallback);
-        default:
-            drawable->setComputeBoundingBoxCallback(new OwnBox);
-            drawable->dirtyBound();
-    }
-}
-
 void alterDrawable(const Part& part, const Description& description, osg::Node& node) {
     osg::Drawable* const drawable = node.asDrawable();
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     if (drawable) alterMesh(part, database, description.turnOf(part.tile), *drawable);
 }
 
@@ -191,7 +121,7 @@ void alterDrawable(const Part& part, const Description& description, osg::Node& 
 void addHouses(const Part& part, const Description& description, osg::Node& node) {
     osg::Group* const group = node.asGroup();
     if (!group) return;
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const Extents e = extentsOf(database, part.tile);
     const double unit = database.isMap ? 1.0 : std::max(database.equatorial, database.polar);
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
@@ -207,7 +137,7 @@ void addHouses(const Part& part, const Description& description, osg::Node& node
 void storeBinOnDrawable(const Part& part, const Description& description, osg::Node& node) {
     osg::Geode* geode = node.asGeode();
     if (!geode || geode->getNumDrawables() == 0) return;
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const Extents e = extentsOf(database, part.tile);
     const double depth = database.relief + sagOf(database, part.tile.level);
     setStoredBin(*geode->getDrawable(0),
@@ -324,12 +254,23 @@ std::string targetOf(const Part& part) {
     return nodeName(part.hook, part.tile);
 }
 
+// OSG does not store that a camera computes no near and far planes. Those that it computes follow from what is
+// delivered: where a nested camera draws into the depths of the view, other culling shows another picture.
+void keepNearAndFar(const osg::Group& scene, osg::Group& loaded) {
+    for (unsigned int i = 0; i < scene.getNumChildren(); ++i) {
+        const osg::Camera* const from = scene.getChild(i)->asCamera();
+        osg::Camera* const to = loaded.getChild(i)->asCamera();
+        const bool isOwn = from && !(from->getInheritanceMask() & osg::CullSettings::COMPUTE_NEAR_FAR_MODE);
+        if (isOwn && to) to->setComputeNearFarMode(from->getComputeNearFarMode());
+    }
+}
+
 }  // namespace
 
 osg::Matrixd frameOfHouses(const Part& part, const Description& description) {
     if (part.hook == Hook::Globe) return {};
     const TileKey tile = part.hook == Hook::Slot ? part.tile.parent() : part.tile;
-    return turned(description.databases[static_cast<std::size_t>(part.tile.database)], description.turnOf(tile));
+    return turned(description.database(part.tile.database), description.turnOf(tile));
 }
 
 osg::Node* findNode(osg::Node& subgraph, const std::string& name) {
@@ -345,9 +286,18 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::CullingOff:
             return node->setCullingActive(false);
         case PartKind::UserCull:
-            return addCullCallback(part, *node);
         case PartKind::UserUpdate:
-            return node->addUpdateCallback(new Passer);
+        case PartKind::LeavesOut:
+        case PartKind::PushesState:
+        case PartKind::Masks:
+        case PartKind::OneShot:
+        case PartKind::BoundCallback:
+        case PartKind::NoBoundCallback:
+        case PartKind::DrawableCull:
+        case PartKind::DrawableDraw:
+        case PartKind::DrawableUpdate:
+        case PartKind::DrawableBound:
+            return addCallback(part, *node);
         case PartKind::DrawableBin:
             return storeBinOnDrawable(part, description, *node);
         case PartKind::Outline:
@@ -355,21 +305,8 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
             return setPolygonMode(part, *node);
         case PartKind::State:
             return setState(part.variant, part.value, *node->getOrCreateStateSet());
-        case PartKind::LeavesOut:
-        case PartKind::PushesState:
-        case PartKind::Masks:
-        case PartKind::OneShot:
-            return addUserCallback(part, *node);
         case PartKind::Vanish:
             return vanish(part.variant, *node);
-        case PartKind::BoundCallback:
-        case PartKind::NoBoundCallback:
-            return setBoundCallback(part, *node);
-        case PartKind::DrawableCull:
-        case PartKind::DrawableDraw:
-        case PartKind::DrawableUpdate:
-        case PartKind::DrawableBound:
-            return setDrawableCallback(part, *node);
         case PartKind::MeshHole:
         case PartKind::ReversedFaces:
         case PartKind::Raise:
@@ -412,6 +349,28 @@ void removePart(const Part& part, osg::Node& scene) {
     if (!found) return;
     const osg::ref_ptr<osg::Node> model = found;
     while (model->getNumParents() > 0) model->getParent(0)->removeChild(model.get());
+}
+
+osg::ref_ptr<osg::Group> writtenAndRead(const osg::Group& scene, bool asText) {
+    const char* const extension = asText ? "osgt" : "osgb";
+    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (!plugin) throw std::runtime_error("no plugin for osgb");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
+    std::stringstream stream;
+    if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
+    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
+    osg::Group* const loaded = result.getNode() ? result.getNode()->asGroup() : nullptr;
+    if (!loaded) throw std::runtime_error("the scene cannot be loaded");
+    keepNearAndFar(scene, *loaded);
+    return loaded;
+}
+
+osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {
+    constexpr osg::CopyOp::CopyFlags kFlags[] = {osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS,
+                                                 osg::CopyOp::SHALLOW_COPY, osg::CopyOp::DEEP_COPY_ALL,
+                                                 osg::CopyOp::DEEP_COPY_NODES};
+    return osg::clone(&scene, osg::CopyOp(kFlags[variant % 4]));
 }
 
 }  // namespace osgAnalyticBin::test

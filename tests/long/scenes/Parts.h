@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Parts that are put on, or happen to, a scene that is built already.
+// Parts that are put on, or happen to, a scene that is built already; copies of scenes.
 
 #pragma once
 
 #include "Description.h"
-
-#include <osg/Matrixd>
-#include <osg/Node>
 
 namespace osgAnalyticBin::test {
 
@@ -24,5 +21,11 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
 
 /// Takes a model out again.
 void removePart(const Part& part, osg::Node& scene);
+
+/// The scene as it comes back from a file, .osgt or .osgb.
+[[nodiscard]] osg::ref_ptr<osg::Group> writtenAndRead(const osg::Group& scene, bool asText);
+
+/// `variant`: what is copied, and what is shared.
+[[nodiscard]] osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant);
 
 }  // namespace osgAnalyticBin::test

@@ -1,17 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "PictureOracle.h"
-
+#include "Oracle.h"
 #include "States.h"
-#include "Triangles.h"
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -38,7 +29,7 @@ struct Place {
 };
 
 // The name of the state that a part sets; empty: none.
-std::string stateOf(const Part& part) {
+std::string nameOfState(const Part& part) {
     const bool isState = part.kind == PartKind::State || part.kind == PartKind::PushesState;
     return isState ? stateName(part.variant) : std::string();
 }
@@ -163,7 +154,7 @@ private:
     [[nodiscard]] bool isBehindCoarseTiles(const Delivered& lost, const Sight& sight) const {
         constexpr double kLongChord = 0.17;  // radians
         return std::any_of(_without.databases.begin(), _without.databases.end(), [&](const MetDatabase& met) {
-            const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(met.number)];
+            const DatabaseSpec& database = _description.database(met.number);
             const bool isCoarse =
                 !database.isMap && database.levels > 0 && database.tileWidth(0) > kLongChord * (database.posts - 1);
             return isCoarse && met.camera == lost.camera &&
@@ -251,7 +242,7 @@ Description picturable(Description description) {
     // cameras in the scene may build on the view's projection, depths without the painter's program depend on it, and
     // logic operations mix surfaces whose order in depth is a matter of its rounding
     const bool isProjectionUsed = std::any_of(parts.begin(), parts.end(), [](const Part& part) {
-        const std::string state = stateOf(part);
+        const std::string state = nameOfState(part);
         return part.kind == PartKind::Camera || state.find("program") != std::string::npos ||
                state.find("logic op") == 0;
     });
@@ -261,11 +252,11 @@ Description picturable(Description description) {
         view.cullingMode &= ~static_cast<int>(osg::CullSettings::SMALL_FEATURE_CULLING);
     }
     const auto dependsOnOrder = [](const Part& part) {
-        return stateOf(part) == "clip plane" || stateOf(part) == "primitive restart";
+        return nameOfState(part) == "clip plane" || nameOfState(part) == "primitive restart";
     };
     // doc/limits.md: "sees skirts through blended terrain"
     const bool isBlended =
-        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return stateOf(part).find("blend") == 0; });
+        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return nameOfState(part).find("blend") == 0; });
     for (DatabaseSpec& database : description.databases) {
         if (isBlended) database.options.skirts = SkirtUse::All;
     }

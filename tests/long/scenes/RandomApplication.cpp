@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "RandomApplication.h"
-
 #include "Meshes.h"
-#include "RandomDatabases.h"
+#include "RandomScene.h"
 #include "States.h"
 
 #include <osg/StateAttribute>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace osgAnalyticBin::test {
 
@@ -50,9 +44,7 @@ public:
     }
 
 private:
-    [[nodiscard]] const DatabaseSpec& database() const {
-        return _description.databases[static_cast<std::size_t>(_number)];
-    }
+    [[nodiscard]] const DatabaseSpec& database() const { return _description.database(_number); }
     [[nodiscard]] int anyLevel() { return _random.chance(0.7) ? 0 : _random.integer(0, 2); }
     /// From the beginning as often as later.
     [[nodiscard]] int anyFrame() { return _random.chance(0.5) ? 0 : _random.integer(1, _frames); }

@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "RandomDatabases.h"
-
 #include "Meshes.h"
-
-#include <algorithm>
-#include <array>
+#include "RandomScene.h"
 
 namespace osgAnalyticBin::test {
 

@@ -5,18 +5,6 @@
 
 #include "States.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/Declarations.h>
-
-#include <osg/Billboard>
-#include <osg/Camera>
-#include <osg/CoordinateSystemNode>
-#include <osg/PagedLOD>
-#include <osg/PolygonMode>
-
-#include <algorithm>
-#include <cstdlib>
-
 namespace osgAnalyticBin::test {
 
 namespace {

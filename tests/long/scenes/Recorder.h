@@ -7,18 +7,6 @@
 
 #include "Painter.h"
 
-#include <osg/Drawable>
-#include <osg/Matrixd>
-#include <osg/NodeVisitor>
-#include <osgDB/DatabasePager>
-#include <osgUtil/CullVisitor>
-
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace osgAnalyticBin::test {
 
 /// A drawable at one place in the scene, that a cull traversal delivered.

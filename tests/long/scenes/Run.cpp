@@ -5,36 +5,17 @@
 
 #include "Builder.h"
 #include "Callbacks.h"
-#include "Copies.h"
-#include "Difference.h"
 #include "Meshes.h"
 #include "Oracle.h"
 #include "Parts.h"
-#include "Picks.h"
 #include "Recorder.h"
 #include "States.h"
 
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
-#include <osg/CoordinateSystemNode>
-#include <osg/FrameStamp>
-#include <osg/PagedLOD>
-#include <osg/StateSet>
 #include <osgDB/ObjectCache>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-#include <osgTerrain/TerrainTile>
-#include <osgUtil/UpdateVisitor>
 
-#include <algorithm>
 #include <exception>
-#include <iterator>
-#include <kit/CullFixture.h>
-#include <map>
-#include <sstream>
-#include <stdexcept>
 
 namespace osgAnalyticBin::test {
 
@@ -326,7 +307,7 @@ private:
             return Failure{frame, "something is in the object cache", std::to_string(objectWatch().size())};
         for (const Part& part : _description.parts) {
             if (part.kind != PartKind::Pick || part.frame != frame) continue;
-            const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(part.tile.database)];
+            const DatabaseSpec& database = _description.database(part.tile.database);
             const auto end = [&](double altitude) {
                 return place(database, part.latitude, part.longitude, altitude) * database.toWorld(frame);
             };

@@ -4,10 +4,7 @@
 #pragma once
 
 #include "Description.h"
-#include "PictureOracle.h"
-
-#include <optional>
-#include <string>
+#include "Oracle.h"
 
 namespace osgAnalyticBin::test {
 
@@ -30,5 +27,15 @@ struct RunTotals {
 /// paging. With a painter, pictures of both are compared in place of what was delivered; the description is to be
 /// picturable(). Returns: the first fault.
 [[nodiscard]] std::optional<Failure> run(const Description& description, RunTotals& totals, Painter* painter = nullptr);
+
+/// A description with less in it that fails in the same way, and how.
+struct Shrunk {
+    Description description;
+    Failure failure;
+};
+
+/// Leaves out parts, frames and traits of the databases one after the other while the scene still fails.
+/// `painter`: as for run().
+[[nodiscard]] Shrunk shrink(const Description& description, const Failure& failure, Painter* painter = nullptr);
 
 }  // namespace osgAnalyticBin::test

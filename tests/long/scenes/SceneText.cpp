@@ -5,14 +5,7 @@
 
 #include "States.h"
 
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <map>
-#include <sstream>
-#include <stdexcept>
-#include <type_traits>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 
@@ -52,9 +45,7 @@ const Words& wordsOf(FileShape) {
     return words;
 }
 const Words& wordsOf(Hook) {
-    static const Words words{"root", "globe",    "tile",  "own",   "mesh", "geode", "file",
-                             "slot", "drawable", "above", "place", "view", "model", "tower"};
-    return words;
+    return hookWords();
 }
 
 [[noreturn]] void refuse(const std::string& text) {
@@ -305,6 +296,29 @@ Thing readFields(Reading& reading, Thing thing) {
     return thing;
 }
 
+template <class Thing>
+std::vector<Thing> simplerThan(Thing thing, Thing plain) {
+    Writing own, other;
+    eachField(own, thing);
+    eachField(other, plain);
+    std::vector<Thing> found;
+    for (std::size_t i = 0; i < own.fields.size(); ++i) {
+        const auto& [name, text] = own.fields[i];
+        if (own.fields[i] == other.fields[i]) continue;
+        std::vector<std::string> texts{other.fields[i].second};
+        for (std::size_t at = 0, end = 0; name == "options" && end != std::string::npos; at = end + 1) {
+            end = text.find(',', at);
+            texts.push_back(text.substr(0, at) + (end == std::string::npos ? "" : text.substr(end + 1)));
+        }
+        for (const std::string& simpler : texts) {
+            Reading reading;
+            reading.fields[name] = simpler;
+            found.push_back(readFields(reading, thing));
+        }
+    }
+    return found;
+}
+
 Part plainPart(PartKind kind, std::size_t number) {
     Part part;
     part.kind = kind;
@@ -373,6 +387,14 @@ std::vector<NamedScene> readScenes(std::istream& in) {
         }
     }
     return scenes;
+}
+
+std::vector<Part> simpler(const Part& part) {
+    return simplerThan(part, plainPart(part.kind, static_cast<std::size_t>(part.id)));
+}
+
+std::vector<DatabaseSpec> simpler(const DatabaseSpec& database) {
+    return simplerThan(database, DatabaseSpec());
 }
 
 std::string toText(const Part& part) {

@@ -17,9 +17,6 @@
 #include "Description.h"
 
 #include <istream>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -42,6 +39,10 @@ struct NamedScene {
 
 /// Throws std::runtime_error with the line that cannot be read. Lines that begin with # are remarks.
 [[nodiscard]] std::vector<NamedScene> readScenes(std::istream& in);
+
+/// Copies, each with one of the fields, or one of the options, that are not the default set back to it.
+[[nodiscard]] std::vector<Part> simpler(const Part& part);
+[[nodiscard]] std::vector<DatabaseSpec> simpler(const DatabaseSpec& database);
 
 [[nodiscard]] std::string toText(const Part& part);
 [[nodiscard]] std::string toText(const Description& description);

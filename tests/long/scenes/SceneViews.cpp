@@ -1,13 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "SceneViews.h"
-
 #include "Meshes.h"
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
+#include "RandomScene.h"
 
 namespace osgAnalyticBin::test {
 
@@ -51,7 +46,7 @@ osg::Vec3d upAt(const DatabaseSpec& database, double latitude, double longitude,
 
 /// At the upper part of a model, as often from below it as from above.
 Look lookAtModel(Random& random, const Description& description, const Part& part, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const int frames = part.kind == PartKind::Vehicle ? frame - part.frame : 0;
     const double altitude = part.low + random.uniform(0.3, 1.0) * (part.high - part.low);
     const osg::Matrixd there = localFrame(database, part.latitude, part.longitude, altitude);
@@ -81,7 +76,7 @@ Look lookAtModel(Random& random, const Description& description, const Part& par
 
 /// At a tile, from above the database.
 Look lookAtTile(Random& random, const Description& description, const TileKey& tile, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const DatabaseSpec& database = description.database(tile.database);
     const Extents e = extentsOf(database, tile);
     const double latitude = e.south + random.uniform() * (e.north - e.south);
     const double longitude = e.west + random.uniform() * (e.east - e.west);
@@ -101,7 +96,7 @@ Look lookAtTile(Random& random, const Description& description, const TileKey& t
 
 /// From a plain at a high place of scaled terrain.
 Look lookAtSummit(Random& random, const Description& description, const TileKey& tile, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const DatabaseSpec& database = description.database(tile.database);
     double scale = database.verticalScale;
     for (const Part& part : description.parts) {
         const bool isScaled = part.kind == PartKind::SetScale && part.tile.database == tile.database;
@@ -130,7 +125,7 @@ Look lookAtSummit(Random& random, const Description& description, const TileKey&
 
 /// From little above the ground to a place that is mostly as low.
 Look lookThroughValley(Random& random, const Description& description, const TileKey& tile, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const DatabaseSpec& database = description.database(tile.database);
     const Extents e = extentsOf(database, tile);
     const double latitude = e.south + random.uniform() * (e.north - e.south);
     const double longitude = e.west + random.uniform() * (e.east - e.west);
@@ -151,7 +146,7 @@ Look lookThroughValley(Random& random, const Description& description, const Til
 
 /// Down at a tile, and at what is behind it where it has a hole.
 Look lookThrough(Random& random, const Description& description, const TileKey& tile, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const DatabaseSpec& database = description.database(tile.database);
     const Extents e = extentsOf(database, tile);
     const double altitude = random.logUniform(0.01, 1.0) * database.size();
     const auto somewhere = [&](double height) {
@@ -166,7 +161,7 @@ Look lookThrough(Random& random, const Description& description, const TileKey& 
 
 /// From beyond the horizon, or from anywhere.
 Look lookAtSign(Random& random, const Description& description, const Part& part, int frame) {
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const DatabaseSpec& database = description.database(part.tile.database);
     const double altitude = random.logUniform(1e-3, 2.0) * database.size();
     const double unit = database.isMap ? database.size() : 1.0;
     const double away = random.uniform(0.0, 3.1) * unit;
@@ -204,7 +199,7 @@ Look anyLook(Random& random, const Description& description, int frame) {
             return lookAtModel(random, description, *model, frame);
     }
     const int number = random.integer(0, static_cast<int>(description.databases.size()) - 1);
-    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(number)];
+    const DatabaseSpec& database = description.database(number);
     TileKey tile{number, 0, random.integer(0, database.shownColumns - 1), random.integer(0, database.rows - 1)};
     if (random.chance(0.6)) {
         if (const Part* part = pickPart(random, partsOf(description, false, frame))) {

@@ -4,29 +4,17 @@
 // Scenes of files and random ones, culled with bins and without: what is seen without bins is drawn with them, and bins
 // that are taken off leave nothing behind. tests/README.md tells how to run it.
 
-#include "Generator.h"
+#include "RandomScene.h"
+#include "Run.h"
 #include "SceneText.h"
-#include "Shrinker.h"
 
-#include <osg/ArgumentParser>
-#include <osg/Notify>
 #include <osgDB/ObjectWrapper>
-#include <osgDB/Registry>
-#include <osgUtil/RenderBin>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
-#include <stdexcept>
-#include <string>
 #include <unistd.h>
-#include <vector>
 
 using namespace osgAnalyticBin::test;
 

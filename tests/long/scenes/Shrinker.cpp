@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Shrinker.h"
-
-#include <algorithm>
-#include <functional>
-#include <utility>
+#include "Run.h"
+#include "SceneText.h"
 
 namespace osgAnalyticBin::test {
 
@@ -23,8 +20,9 @@ public:
             _hasChanged = false;
             dropParts();
             dropFrames();
-            simplifyParts();
-            simplifyDatabases();
+            if (_best.description.databases.size() > 1) attempt([](Description& d) { dropLastDatabase(d); });
+            simplify(&Description::parts);
+            simplify(&Description::databases);
             if (!_hasChanged) break;
         }
         return _best;
@@ -63,59 +61,15 @@ private:
         }
     }
 
-    template <class Value>
-    void reset(Value DatabaseSpec::*member, std::size_t i, const Value& plain) {
-        if (_best.description.databases[i].*member == plain) return;
-        attempt([&](Description& d) { d.databases[i].*member = plain; });
-    }
-
-    template <class Value>
-    static void resetOption(Value CullOptions::*member, CullOptions& options) {
-        options.*member = CullOptions().*member;
-    }
-
-    // One option after the other, then all.
-    void simplifyOptions(const std::function<CullOptions&(Description&)>& of) {
-        const std::vector<std::function<void(CullOptions&)>> changes{
-            [](CullOptions& o) { o = CullOptions(); },
-            [](CullOptions& o) { resetOption(&CullOptions::method, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::horizonUse, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::inheritViewpoint, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::edges, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::occlusion, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::expiry, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::skirts, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::heights, o); }};
-        for (const auto& change : changes) {
-            Description probe = _best.description;
-            const std::string before = toText(of(probe));
-            change(of(probe));
-            if (toText(of(probe)) != before) attempt([&](Description& d) { change(of(d)); });
-        }
-    }
-
-    void simplifyParts() {
-        for (std::size_t i = 0; i < _best.description.parts.size(); ++i) {
-            simplifyOptions([i](Description& d) -> CullOptions& { return d.parts[i].options; });
-            if (_best.description.parts[i].until > 0) attempt([&](Description& d) { d.parts[i].until = 0; });
-        }
-    }
-
-    void simplifyDatabases() {
-        if (_best.description.databases.size() > 1) attempt([](Description& d) { dropLastDatabase(d); });
-        for (std::size_t i = 0; i < _best.description.databases.size(); ++i) {
-            for (int levels = 0; levels < _best.description.databases[i].levels; ++levels)
-                reset(&DatabaseSpec::levels, i, levels);
-            reset(&DatabaseSpec::isLoaded, i, false);
-            reset(&DatabaseSpec::requestsBins, i, false);
-            reset(&DatabaseSpec::leavesArePaged, i, false);
-            reset(&DatabaseSpec::storesBins, i, false);
-            reset(&DatabaseSpec::hasSkirts, i, true);
-            reset(&DatabaseSpec::fileShape, i, FileShape::Tiles);
-            reset(&DatabaseSpec::mesh, i, MeshKind::Local);
-            reset(&DatabaseSpec::relief, i, std::min(1000.0, _best.description.databases[i].relief));
-            reset(&DatabaseSpec::waves, i, 5.0);
-            simplifyOptions([i](Description& d) -> CullOptions& { return d.databases[i].options; });
+    // Databases or parts, field by field.
+    template <class Thing>
+    void simplify(std::vector<Thing> Description::*list) {
+        for (std::size_t i = 0; i < (_best.description.*list).size(); ++i) {
+            const auto ways = [&] { return simpler((_best.description.*list)[i]); };
+            for (std::size_t way = 0; way < ways().size();) {
+                const Thing candidate = ways()[way];
+                if (!attempt([&](Description& d) { (d.*list)[i] = candidate; })) ++way;
+            }
         }
     }
 

@@ -5,8 +5,6 @@
 
 #include "Painter.h"
 
-#include <osgAnalyticBin/Declarations.h>
-
 #include <osg/AlphaFunc>
 #include <osg/BlendColor>
 #include <osg/BlendEquation>
@@ -22,7 +20,6 @@
 #include <osg/FragmentProgram>
 #include <osg/FrontFace>
 #include <osg/Hint>
-#include <osg/Image>
 #include <osg/Light>
 #include <osg/LightModel>
 #include <osg/LineStipple>
@@ -32,11 +29,9 @@
 #include <osg/Multisample>
 #include <osg/Point>
 #include <osg/PointSprite>
-#include <osg/PolygonMode>
 #include <osg/PolygonOffset>
 #include <osg/PolygonStipple>
 #include <osg/PrimitiveRestartIndex>
-#include <osg/Program>
 #include <osg/SampleMaski>
 #include <osg/Sampler>
 #include <osg/Scissor>
@@ -55,13 +50,6 @@
 #include <osg/VertexAttribDivisor>
 #include <osg/VertexProgram>
 #include <osg/Viewport>
-
-#include <algorithm>
-#include <functional>
-#include <memory>
-#include <set>
-#include <stdexcept>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -5,9 +5,7 @@
 
 #pragma once
 
-#include <osg/StateSet>
-
-#include <string>
+#include "Includes.h"
 
 namespace osgAnalyticBin::test {
 

@@ -7,34 +7,8 @@
 #include "Painter.h"
 #include "Recorder.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <osg/ArgumentParser>
-#include <osg/CoordinateSystemNode>
-#include <osg/FrameStamp>
-#include <osg/Geometry>
-#include <osg/Notify>
-#include <osg/PagedLOD>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
-#include <osgDB/ReadFile>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
-#include <osgUtil/RenderBin>
-#include <osgUtil/UpdateVisitor>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <kit/CullFixture.h>
-#include <memory>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <support/Random.h>
 
 using namespace osgAnalyticBin;
 using namespace osgAnalyticBin::test;

@@ -3,22 +3,12 @@
 //
 // Oracle: the interpolated point of the eight corners, which is in their hull, beside the point in long double.
 
+#include "CoreTest.h"
+
 #include <osgAnalyticBin/core/occlusion/BinBody.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <support/GeodeticOracle.h>
-#include <support/Planets.h>
-#include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::BinHull;
-using core::Ellipsoid;
-using core::GeodeticBin;
 
 TEST(BinBody, IsInTheHullsOfItsQuarters) {
     Random random(1711);

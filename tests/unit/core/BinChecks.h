@@ -6,17 +6,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/Plane.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 

@@ -3,37 +3,18 @@
 
 // Oracles: classify() of a bin by itself (tested in PlaneSetTest) and HorizonEye::hides() (HorizonTest), bit for bit.
 
+#include "CoreTest.h"
 #include "FamilySamples.h"
 
-#include <osgAnalyticBin/core/bin/BinFamily.h>
-#include <osgAnalyticBin/core/edge/HullSeparation.h>
-
-#include <gtest/gtest.h>
-
-#include <core/kernels/PlaneKernels.h>
 #ifdef OSGANALYTICBIN_SIMD
 #include <hwy/highway.h>
 #endif
-
-#include <array>
-#include <cstdint>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
-#include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::BinFamily;
-using core::ExactGeodeticBin;
 using core::FamilyVerdict;
-using core::GeodeticBin;
-using core::HorizonBin;
-using core::HorizonEye;
-using core::PlaneMask;
-using core::PlaneSet;
-using core::Side;
 
 bool has(std::uint64_t slots, std::size_t i) {
     return (slots >> i & 1) != 0;

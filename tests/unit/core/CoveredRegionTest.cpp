@@ -4,27 +4,14 @@
 // Oracle: latitudes and longitudes of points along segments to all corners of the region, and along lines of sight to
 // where they meet the occluder.
 
+#include "CoreTest.h"
+
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
-#include <osgAnalyticBin/core/horizon/Horizon.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <support/Random.h>
-#include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::CoveredRegion;
-using core::Ellipsoid;
-using core::Geodetic;
-using core::GeodeticBin;
-using core::HorizonEye;
 
 // Radians by which a position may be beside a region and count as over it: rounding of the conversion.
 constexpr double kOverRegion = 1e-10;

@@ -4,12 +4,8 @@
 // What cracks between tiles can show. Oracle: points of chords and triangles in long double, of every neighbour that a
 // tile of a quadtree can have.
 
+#include "CoreTest.h"
 #include "CrackSamples.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace osgAnalyticBin::core::cracks {
 namespace {

@@ -6,13 +6,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
-
-#include <algorithm>
-#include <support/GeodeticOracle.h>
-#include <support/Planets.h>
-#include <support/Random.h>
-#include <vector>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::core::cracks {
 

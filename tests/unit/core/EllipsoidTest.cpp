@@ -3,23 +3,10 @@
 
 // Oracles: long double evaluation, one published worked example, finite differences, dense sampling.
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::Geodetic;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // toEcef: some ten roundings of quantities as large as the coordinates.

@@ -5,32 +5,10 @@
 // bin. Ten million more pairs of bin and plane: Soundness.cpp. Many planes at once: PlaneSetTest.
 
 #include "BinChecks.h"
-
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::ExactGeodeticBin;
-using core::GeodeticBin;
-using core::Interval;
-using core::Plane;
-using core::Side;
 
 // Documented at ExactGeodeticBin::distanceRange.
 constexpr double kTightness = 64.0 * std::numeric_limits<double>::epsilon();

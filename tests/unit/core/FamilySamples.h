@@ -3,18 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/bin/BinFamily.h>
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-#include <osgAnalyticBin/core/horizon/Horizon.h>
+#include "CoreTest.h"
 
-#include <array>
-#include <cstdint>
-#include <limits>
 #include <optional>
-#include <support/RandomBins.h>
-#include <support/RandomViews.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

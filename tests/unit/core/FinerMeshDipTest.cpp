@@ -4,13 +4,8 @@
 // How deep meshes that are finer than a tile dip below their posts. Oracle: points of chords and triangles in long
 // double.
 
+#include "CoreTest.h"
 #include "CrackSamples.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace osgAnalyticBin::core::cracks {
 namespace {

@@ -4,22 +4,12 @@
 // Oracles: the definition of the set, point by point; set algebra on random bins (RapidCheck shrinks its
 // counter-examples). What a bin looks like in space is tested with the mapping.
 
-#include <osgAnalyticBin/core/GeodeticBin.h>
+#include "CoreTest.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Geodetic;
-using core::GeodeticBin;
-using core::Interval;
 
 constexpr double kTwoPi = 2.0 * kPi;
 constexpr double kAngleTolerance = 2e-15;  // promised by GeodeticBin::contains

@@ -4,23 +4,11 @@
 // Oracle: points of the triangles of random cells of a grid, diagonals either way, taken back to latitude, longitude
 // and altitude in long double.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
-
-#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <support/Planets.h>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::GeodeticGrid;
-using core::GeodeticGridBounds;
 
 constexpr double kPromisedSag = 1e-7;  // metres
 

@@ -4,27 +4,13 @@
 // Oracles: finite differences of the long double mapping, convergence order of the model. The value itself is
 // tested as Ellipsoid.ConvertsLikeLongDouble.
 
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::GeodeticMapping;
 using core::Hessians;
 using core::ParameterBox;
-using core::QuadraticBin;
 
 using RealStep = std::array<Real, 3>;
 

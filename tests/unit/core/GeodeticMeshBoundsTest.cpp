@@ -3,25 +3,13 @@
 
 // Oracle: points of the triangles, taken back to latitude, longitude and altitude in long double.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
-
-#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::EcefMesh;
-using core::Ellipsoid;
-using core::Geodetic;
-using core::GeodeticBin;
 using core::GeodeticMeshBounds;
-using core::Interval;
 
 constexpr double kMeshPromised = 1e-7;  // metres, by GeodeticMeshBounds
 

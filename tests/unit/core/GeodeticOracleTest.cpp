@@ -4,11 +4,7 @@
 // The truth that the other tests lean on is itself tested: the closed form against sampling and climbing, the
 // inverse mapping against the mapping.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <support/GeodeticOracle.h>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -1,28 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
 #include "OcclusionScene.h"
 
-#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <utility>
-
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::EcefMesh;
-using core::Ellipsoid;
-using core::Geodetic;
-using core::GeodeticBin;
-using core::GroundPlates;
-using core::Interval;
 
 constexpr std::array<std::size_t, 4> kGrids{1, 2, 4, 8};
 

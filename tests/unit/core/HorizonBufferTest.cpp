@@ -4,21 +4,10 @@
 // Terrain that hides terrain. Oracle: rays through all triangles, in long double. That nothing is hidden that a ray
 // reaches, on globes and in maps, from one eye and from any in a box: tests/long/soundness/OcclusionSoundness.cpp.
 
+#include "CoreTest.h"
 #include "OcclusionScene.h"
 
-#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <core/kernels/OcclusionKernels.h>
-#include <core/kernels/PlaneKernels.h>
-#include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <vector>
 
 #ifdef OSGANALYTICBIN_SIMD
 #include <hwy/highway.h>
@@ -26,9 +15,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::BinHull;
-using core::HorizonBuffer;
 
 constexpr int kRays = 24;
 

@@ -4,27 +4,10 @@
 // Oracles: the exact intersection of a line of sight with the occluder in long double, at sampled points of the bin and
 // at points made so that the line of sight just misses; relations. HullSoundness.cpp makes ten million more trials.
 
-#include <osgAnalyticBin/core/horizon/Horizon.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
-#include <support/RandomViews.h>
-#include <support/View.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::Geodetic;
-using core::GeodeticBin;
-using core::HorizonBin;
-using core::HorizonEye;
-using core::Interval;
 
 // Lowest terrain on earth.
 constexpr double kDepth = 11000.0;

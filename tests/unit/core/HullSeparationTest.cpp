@@ -4,29 +4,12 @@
 // The search for a parting plane. Oracle: libccd says which hulls meet. Planets and HullSoundness.cpp (ten million
 // trials) test bins with a point that is known to be inside the frustum.
 
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/edge/HullSeparation.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
+#include "CoreTest.h"
 
 #include <bitset>
-#include <cmath>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
-#include <support/RandomViews.h>
-#include <support/View.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::ExactGeodeticBin;
-using core::GeodeticBin;
-using core::Plane;
-using core::PlaneMask;
-using core::Side;
 
 constexpr std::size_t kMostPlanes = 6;
 

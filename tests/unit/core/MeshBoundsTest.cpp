@@ -4,23 +4,11 @@
 // On the earth. Every point of meshes: PlanetMeshesTest. Oracles: points of the triangles, taken back to latitude,
 // longitude and altitude in long double; and GeodeticMeshBounds.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
-
-#include <osgAnalyticBin/core/mesh/MeshBounds.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::EcefMesh;
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::Interval;
-using core::MeshBounds;
 
 constexpr double kQuickPromised = 1e-7;  // metres
 constexpr double kAxisTolerance = 1.0;

@@ -4,18 +4,10 @@
 // MeshCover: a mesh fills its rectangle only where every normal meets a front face. Oracles: meshes that are whole by
 // construction, with and without a triangle; lines along the normals of random places, against all triangles.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
 
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -4,37 +4,13 @@
 // Bins of a map: boxes in the plane. Oracle: their eight corners. Terrain in maps: HorizonBufferTest.cpp,
 // GroundPlatesTest.cpp, CoveredRegionTest.cpp.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/bin/BinFamily.h>
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-#include <osgAnalyticBin/core/edge/HullSeparation.h>
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
-#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
-#include <osgAnalyticBin/core/mesh/MeshBounds.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <support/Random.h>
 #include <variant>
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::Interval;
-using core::Plane;
-using core::QuadraticBin;
-using core::Side;
 
 constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
 

@@ -4,37 +4,18 @@
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
 // kernels bit for bit.
 
+#include "CoreTest.h"
 #include "FamilySamples.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 
-#include <gtest/gtest.h>
-
-#include <core/kernels/OcclusionKernels.h>
-#include <core/kernels/PlaneKernels.h>
 #ifdef OSGANALYTICBIN_SIMD
 #include <hwy/highway.h>
 #endif
 
-#include <array>
-#include <cstdint>
-#include <support/RandomBins.h>
-#include <utility>
-#include <vector>
-
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::ExactGeodeticBin;
-using core::Plane;
-using core::PlaneMask;
-using core::PlaneSet;
-using core::QuadraticBin;
-using core::Side;
 using core::kernels::PlaneSides;
 
 // A bin and some planes about it.

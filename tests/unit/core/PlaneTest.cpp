@@ -4,22 +4,13 @@
 // The plane's sign convention and the mask semantics of classify(); what the bins themselves answer is tested with
 // them.
 
-#include <osgAnalyticBin/core/Plane.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <support/Random.h>
-#include <vector>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::classify;
 using core::kMaxPlanes;
-using core::Plane;
-using core::PlaneMask;
-using core::Side;
 
 // Answers by the plane's offset.
 struct ScriptedBin {

@@ -5,33 +5,14 @@
 // in metres, in kilometres and with an equatorial radius of one. Oracle: points of the triangles, taken back to
 // latitude, longitude and altitude in long double.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
-#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/mesh/MeshBounds.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <string>
-#include <support/Planets.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 
 namespace {
-
-using core::EcefMesh;
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::GeodeticGrid;
-using core::GeodeticGridBounds;
-using core::Interval;
-using core::MeshBounds;
 
 constexpr double kPromised = 1.6e-14;  // of the larger radius
 constexpr double kRound = 0.01;        // |a2/b2 - 1| up to which there are quick bounds

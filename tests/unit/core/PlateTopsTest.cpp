@@ -3,24 +3,12 @@
 //
 // Oracle: positions in long double of random points of all triangles, skirts included.
 
+#include "CoreTest.h"
 #include "MeshSamples.h"
 #include "TriangleSamples.h"
 
-#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::EcefMesh;
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::GroundPlates;
-using core::Interval;
 
 constexpr double kPi = 3.14159265358979323846;
 

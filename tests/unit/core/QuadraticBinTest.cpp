@@ -5,31 +5,10 @@
 // plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
 
 #include "BinChecks.h"
-
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
-
-using core::Ellipsoid;
-using core::GeodeticBin;
-using core::GeodeticMapping;
-using core::Interval;
-using core::Plane;
-using core::QuadraticBin;
-using core::Side;
 
 // Two evaluations of the same geometry from other numbers differ by a few roundings of coordinates near 7e6 m.
 constexpr double kSameGeometry = 1e-7;

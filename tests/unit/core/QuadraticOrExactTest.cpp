@@ -3,20 +3,11 @@
 
 // Oracle: the closed form in long double. The two bins themselves: QuadraticBinTest, ExactGeodeticBinTest.
 
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <support/RandomBins.h>
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::GeodeticBin;
-using core::Interval;
-using core::Plane;
 using core::quadraticOrExact;
 
 bool isExact(const core::QuadraticOrExact& bin) {

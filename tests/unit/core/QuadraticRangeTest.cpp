@@ -4,23 +4,14 @@
 // Oracle: the stationary points of the cube, its faces and its edges, solved in long double by elimination with
 // pivoting, and its vertices.
 
+#include "CoreTest.h"
+
 #include <osgAnalyticBin/core/bin/QuadraticRange.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <support/Random.h>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::exactRange;
-using core::Interval;
 using core::Quadratic;
 
 using Real = long double;

@@ -4,22 +4,13 @@
 // Balls behind terrain, in any order. Oracle: rays through all triangles, in long double. The buffer itself:
 // HorizonBufferTest.cpp.
 
+#include "CoreTest.h"
 #include "OcclusionScene.h"
-
-#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <cstdio>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::BinBall;
-using core::HorizonBuffer;
 
 constexpr int kRaysOfAll = 24;
 constexpr int kBallsInScene = 60;

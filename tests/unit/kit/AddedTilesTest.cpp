@@ -4,18 +4,7 @@
 // Tiles that an application attaches by itself, in the manner of a flight simulator: no CoordinateSystemNode stands
 // above them, they come in any thread, and their ground has a name.
 
-#include "ApplicationGlobe.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileFinder.h>
-
-#include <gtest/gtest.h>
-#include <osg/LOD>
-
-#include <support/CapturedNotes.h>
-#include <thread>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

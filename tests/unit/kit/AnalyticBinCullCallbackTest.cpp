@@ -5,34 +5,17 @@
 // that the traversal reaches; relations (a moved globe, a local frame). That no tile is culled that is seen:
 // ProjectionTest.cpp. The verdict against a single plane is tested in core/.
 
-#include "ApplicationGlobe.h"
-#include "CameraGlobe.h"
-#include "CullFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/MatrixTransform>
 #include <osg/UserDataContainer>
 
-#include <cmath>
-#include <support/Random.h>
-#include <vector>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 using core::GeodeticBin;
-using test::CullView;
-using test::horizonOptions;
-using test::kEarthRadius;
-using test::kOccluderDepth;
-using test::osgVector;
 
-CullView randomGlobeView(test::Random& random) {
-    const osg::Vec3d eye = test::randomEyeAbove(random, 1e3);
+CullView randomGlobeView(Random& random) {
+    const osg::Vec3d eye = randomEyeAbove(random, 1e3);
     const osg::Vec3d target = osgVector(random.direction()) * kEarthRadius;
     return CullView::lookAt(eye, target, osgVector(random.direction()), random.uniform(2.0, 90.0));
 }
@@ -43,16 +26,16 @@ CullView lookDown(double altitude, double fovDeg = 40.0) {
 }
 
 struct CountedGlobe {
-    explicit CountedGlobe(const CullOptions& options = {}) : bins(test::startTiles()) {
+    explicit CountedGlobe(const CullOptions& options = {}) : bins(startTiles()) {
         for (std::size_t i = 0; i < bins.size(); ++i)
-            root->addChild(test::makeTile(std::to_string(i), bins[i], visited, options));
+            root->addChild(makeTile(std::to_string(i), bins[i], visited, options));
     }
 
     std::set<std::string> reached(osg::Node& scene, const CullView& view, float pixels = 2.0f) {
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         visitor->setSmallFeatureCullingPixelSize(pixels);
-        test::cull(scene, view, *visitor);
+        cull(scene, view, *visitor);
         counts = BinStatistics::of(*visitor).getCounts();
         return visited;
     }
@@ -68,7 +51,7 @@ TEST(AnalyticBinCullCallback, CullsAGlobeThatATransformMovesTurnsAndScalesLikeOn
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
     mover->addChild(globe.root);
-    test::Random random(31);
+    Random random(31);
     for (int i = 0; i < 60; ++i) {
         CullView view = randomGlobeView(random);
         const std::set<std::string> atRest = globe.reached(*globe.root, view);
@@ -89,15 +72,15 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     CullOptions none;
     none.method = Method::None;
     const AnalyticBin bin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
-    root->addChild(test::makeTile("culled", bin, visited));
-    root->addChild(test::makeTile("invalid bin", AnalyticBin(), visited));
-    root->addChild(test::makeTile("no culling", bin, visited, none));
-    osg::ref_ptr<osg::Group> singular = test::makeTile("singular frame", bin, visited);
+    root->addChild(makeTile("culled", bin, visited));
+    root->addChild(makeTile("invalid bin", AnalyticBin(), visited));
+    root->addChild(makeTile("no culling", bin, visited, none));
+    osg::ref_ptr<osg::Group> singular = makeTile("singular frame", bin, visited);
     dynamic_cast<AnalyticBinCullCallback&>(*singular->getCullCallback()).setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
     root->addChild(singular);
-    root->addChild(test::makeTile("no radius", bin, visited, {}, osg::EllipsoidModel(std::nan(""), 6.4e6)));
+    root->addChild(makeTile("no radius", bin, visited, {}, osg::EllipsoidModel(std::nan(""), 6.4e6)));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, away, *visitor);
+    cull(*root, away, *visitor);
     EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
 }
 
@@ -140,7 +123,7 @@ TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
     CullOptions off;
     off.edges = false;
     CountedGlobe with, without(off);
-    test::Random random(32);
+    Random random(32);
     unsigned int separated = 0;
     for (int i = 0; i < 200; ++i) {
         const CullView view = randomGlobeView(random);
@@ -183,7 +166,7 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
     for (unsigned int frame = 1; frame <= 3; ++frame) {
-        test::cull(*globe.root, lookDown(1e6), *visitor, frame);
+        cull(*globe.root, lookDown(1e6), *visitor, frame);
         ASSERT_NE(BinStatistics::find(*visitor), nullptr);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().frame, frame);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 128u);
@@ -193,11 +176,11 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    test::cull(*globe.root, lookDown(1e6), *a);
+    cull(*globe.root, lookDown(1e6), *a);
     const BinCounts before = BinStatistics::find(*a)->getCounts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
-    test::cull(*globe.root, lookDown(1e7), *b);
+    cull(*globe.root, lookDown(1e7), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
     // they may cull in two threads: nothing is put into what OSG has them share
@@ -218,7 +201,7 @@ struct Gate : osg::NodeCallback {
 TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
     enum Place { BehindBeforeInstalling, BehindAfterInstalling, InFront };
     for (const Place place : {BehindBeforeInstalling, BehindAfterInstalling, InFront}) {
-        test::MeshGlobe globe;
+        MeshGlobe globe;
         const osg::ref_ptr<Gate> gate = new Gate;
         if (place == BehindBeforeInstalling) globe.root->setCullCallback(gate);
         ASSERT_EQ(installBins(*globe.root), 32u);
@@ -233,7 +216,7 @@ TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
                 gate->runs = 0;
                 EXPECT_EQ(globe.draws(*globe.tiles[19], globe.fromAbove()), isOpen) << when << place;
                 EXPECT_EQ(gate->runs, 1) << when << place;
-                EXPECT_FALSE(globe.draws(*globe.tiles[20], test::downTo(22.5, -22.5))) << when << place;
+                EXPECT_FALSE(globe.draws(*globe.tiles[20], downTo(22.5, -22.5))) << when << place;
             }
         };
         expectItToDecide("at first ");
@@ -241,11 +224,11 @@ TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
             CullOptions options;
             options.method = method;
             installBins(*globe.root, options);
-            test::update(*globe.root);
+            update(*globe.root);
             expectItToDecide("later ");
         }
     }
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,19 +4,9 @@
 // Oracles: exact comparison of what is written with what is read back; dense samples of the bin for the sphere.
 // The interval arithmetic behind expandBy and contains is tested in core/GeodeticBinTest.cpp.
 
-#include "CullFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-
-#include <gtest/gtest.h>
-#include <osg/Group>
-
-#include <cmath>
-#include <support/Random.h>
-#include <utility>
-#include <vector>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 using core::GeodeticBin;
@@ -54,7 +44,7 @@ TEST(AnalyticBin, TextRoundTripIsExactForQuadtreeCells) {
 }
 
 TEST(AnalyticBin, TextRoundTripOfAnyAnglesContainsTheBin) {
-    test::Random random(1);
+    Random random(1);
 
     for (int i = 0; i < 20000; ++i) {
         const double a = random.uniform(-1.57, 1.57);
@@ -92,7 +82,7 @@ TEST(AnalyticBin, TextRoundTripKeepsTheSag) {
 
 // Terrain is taken as pairs of a post's height and the dip of the chords beside it.
 TEST(AnalyticBin, ExaggerationHoldsScaledPostsAndTheirUnscaledDips) {
-    test::Random random(7);
+    Random random(7);
     for (int trial = 0; trial < 2000; ++trial) {
         AnalyticBin bin;
         std::vector<std::pair<double, double>> posts;
@@ -147,7 +137,7 @@ TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
                 GeodeticBin::fromDegrees({south, south + width}, {170.0, 170.0 + width}, {-400.0, 8800.0}));
             const osg::BoundingSphere sphere = bin.boundingSphere(wgs84);
             double reach = 0.0;
-            for (const osg::Vec3d& p : test::samples(bin, 9)) {
+            for (const osg::Vec3d& p : samples(bin, 9)) {
                 reach = std::max(reach, (p - osg::Vec3d(sphere.center())).length());
             }
             EXPECT_LE(reach, sphere.radius());
@@ -160,10 +150,10 @@ TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
 TEST(AnalyticBin, SphereOfTheWholeGlobeHoldsTheGlobe) {
     const AnalyticBin globe(GeodeticBin::wholeGlobe({-11000.0, 9000.0}));
     const osg::BoundingSphere sphere = globe.boundingSphere(osg::EllipsoidModel());
-    for (const osg::Vec3d& p : test::samples(globe, 15)) {
+    for (const osg::Vec3d& p : samples(globe, 15)) {
         EXPECT_LE((p - osg::Vec3d(sphere.center())).length(), sphere.radius());
     }
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -5,26 +5,7 @@
 // Oracle: what OSG draws of the same scene; random scenes of all of this: tests/long/scenes. State, masks and eyes:
 // ApplicationStateTest.cpp.
 
-#include "ApplicationGlobe.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Billboard>
-#include <osg/Camera>
-#include <osg/Geometry>
-#include <osg/LOD>
-#include <osg/LightSource>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-#include <osgUtil/PositionalStateContainer>
-#include <osgUtil/RenderStage>
-
-#include <algorithm>
-#include <set>
-#include <string>
-#include <support/GridMesh.h>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

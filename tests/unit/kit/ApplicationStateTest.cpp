@@ -4,20 +4,9 @@
 // How applications show a globe on which bins are installed: state, masks, callbacks, eyes below the ground.
 // Content: ApplicationContentTest.cpp. States of all kinds, more holes: tests/scenes.
 
-#include "ApplicationGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
 #include <osg/FrontFace>
-#include <osg/Geode>
-#include <osg/MatrixTransform>
-
-#include <cstddef>
-#include <set>
-#include <string>
-#include <support/CapturedNotes.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

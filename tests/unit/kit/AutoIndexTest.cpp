@@ -3,29 +3,7 @@
 //
 // The index that is made in the background, and what tiles are culled by before there is one.
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/AutoTransform>
-#include <osg/Geometry>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <set>
-#include <string>
-#include <support/CapturedNotes.h>
-#include <support/TemporaryFolder.h>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

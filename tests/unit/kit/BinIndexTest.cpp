@@ -5,23 +5,14 @@
 // tests/unit/applications/osgbinconv, reading by OSG's file names in tests/unit/plugin.
 
 #include "../../osgAnalyticBin/src/index/Checksum.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/BinIndex.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <sstream>
-#include <support/Random.h>
-#include <support/TemporaryFolder.h>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
-AnalyticBin randomBin(test::Random& random) {
+AnalyticBin randomBin(Random& random) {
     const double south = random.uniform(-1.5, 1.4);
     const double west = random.uniform(-3.1, 3.1);
     const double low = random.uniform(-9000.0, 3000.0);
@@ -34,7 +25,7 @@ AnalyticBin randomBin(test::Random& random) {
 }
 
 osg::ref_ptr<BinIndex> randomIndex(int files) {
-    test::Random random(4711);
+    Random random(4711);
     const osg::ref_ptr<BinIndex> index = new BinIndex;
     index->setSource({"earth.ive", 123456789012ull, -5});
     for (int i = 0; i < files; ++i) {
@@ -115,7 +106,7 @@ TEST(BinIndex, FindsTilesByFileAndOrdinal) {
 }
 
 TEST(BinIndex, RoundsOutward) {
-    test::Random random(4712);
+    Random random(4712);
     for (int i = 0; i < 2000; ++i) {
         const AnalyticBin bin = randomBin(random);
         const double ownLow = random.uniform(-12000.0, 9000.0);
@@ -159,7 +150,7 @@ TEST(BinIndex, EveryTruncationIsRefused) {
 
 TEST(BinIndex, EveryFlippedBitIsRefused) {
     const std::string bytes = bytesOf(*randomIndex(12));
-    test::Random random(4713);
+    Random random(4713);
     const int last = static_cast<int>(bytes.size()) - 1;
     for (int i = 0; i < 1500; ++i) {
         // the head with its sizes wholly, then anywhere
@@ -182,7 +173,7 @@ TEST(BinIndex, ForeignFilesAreRefused) {
 }
 
 TEST(BinIndex, WritesAWholeFileOrNone) {
-    const test::TemporaryFolder scratch;
+    const TemporaryFolder scratch;
     const osg::ref_ptr<BinIndex> index = randomIndex(5);
     std::string error;
     ASSERT_TRUE(index->write(scratch / "earth.ive.bins", error)) << error;
@@ -197,7 +188,7 @@ TEST(BinIndex, WritesAWholeFileOrNone) {
 }
 
 TEST(BinIndex, StandsBesideItsDatabase) {
-    const test::TemporaryFolder scratch;
+    const TemporaryFolder scratch;
     const std::string database = scratch / "earth.ive";
     std::string error = "left over";
     std::ofstream(database) << "nine bytes";
@@ -218,4 +209,4 @@ TEST(BinIndex, StandsBesideItsDatabase) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

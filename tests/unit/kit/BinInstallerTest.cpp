@@ -4,23 +4,9 @@
 // What the installer does to a scene graph. That the tiles it treats are culled rightly is tested in
 // AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
 
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osg/ValueObject>
-#include <osgUtil/UpdateVisitor>
-
-#include <cmath>
-#include <support/CapturedNotes.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 using core::GeodeticBin;
@@ -90,7 +76,7 @@ TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
     Database db;
     ASSERT_EQ(installBins(*db.root), 1u);
     db.root->setEllipsoidModel(new osg::EllipsoidModel(std::nan(""), 3376200.0));
-    const test::CapturedNotes notes;
+    const CapturedNotes notes;
     EXPECT_EQ(installBins(*db.root), 0u);
     EXPECT_EQ(callbackOf(*db.tile), nullptr);
     EXPECT_TRUE(db.tile->getCullingActive());
@@ -110,8 +96,8 @@ TEST(BinInstaller, MethodNoneCullsNothingBelowItsNode) {
     };
     const auto drawn = [&] {
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-        const auto view = test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-        return test::cull(*db.above, view, *visitor).drawn.size();
+        const auto view = CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+        return cull(*db.above, view, *visitor).drawn.size();
     };
     moved(*db.root);
     moved(*db.above);
@@ -152,7 +138,7 @@ TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
 }
 
 TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
-    const osg::Vec3d origin = test::ecefDeg(0, 0, 0);
+    const osg::Vec3d origin = ecefDeg(0, 0, 0);
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
     const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::translate(origin));
     const osg::ref_ptr<osg::MatrixTransform> leaf = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 7));
@@ -171,11 +157,11 @@ TEST(BinInstaller, ABrokenStoredBinLeavesTheTileToItsSphere) {
     EXPECT_EQ(installBins(*db.root), 1u);
     EXPECT_FALSE(callbackOf(*db.tile)->getBin().valid());
     std::set<std::string> visited;
-    callbackOf(*db.tile)->setNestedCallback(new test::VisitRecorder("tile", visited));
+    callbackOf(*db.tile)->setNestedCallback(new VisitRecorder("tile", visited));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*db.root, test::CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    cull(*db.root, CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
     EXPECT_EQ(visited.size(), 0u);
-    test::cull(*db.root, test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    cull(*db.root, CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0), *visitor);
     EXPECT_EQ(visited.size(), 1u);
 }
 
@@ -198,9 +184,9 @@ TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(
         new osg::EllipsoidModel(osg::WGS_84_RADIUS_EQUATOR * kFeet, osg::WGS_84_RADIUS_POLAR * kFeet));
-    const osg::ref_ptr<osg::MatrixTransform> mesh = test::makeMeshTile(test::extentsDeg(10, 12, 20, 22), 100.0);
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(10, 12, 20, 22), 100.0);
     mesh->postMult(osg::Matrixd::scale(kFeet, kFeet, kFeet));
-    const osg::ref_ptr<osg::PagedLOD> tile = test::makePaged(mesh, "finer.osgb", 1e9f);
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "finer.osgb", 1e9f);
     root->addChild(tile);
     ASSERT_EQ(installBins(*root), 1u);
     const core::Interval altitude = callbackOf(*tile)->getBin().bin().altitude();
@@ -211,7 +197,7 @@ TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
 // In one line each.
 TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
     const auto notesOf = [](osg::Node& scene, const char* what) {
-        const test::CapturedNotes notes(osg::NOTICE);
+        const CapturedNotes notes(osg::NOTICE);
         EXPECT_EQ(installBins(scene), 0u);
         EXPECT_EQ(notes.count("0 tiles got bins"), 1u);
         EXPECT_EQ(notes.count(what), 1u);
@@ -220,10 +206,10 @@ TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
     const osg::ref_ptr<osg::CoordinateSystemNode> empty = new osg::CoordinateSystemNode;
     notesOf(*empty, "Install bins again when there are some");
     const osg::ref_ptr<osg::Group> withoutGlobe = new osg::Group;
-    withoutGlobe->addChild(test::makePaged(test::makeMeshTile(test::extentsDeg(0, 5, 0, 5), 0.0), "no.osgb"));
+    withoutGlobe->addChild(makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0), "no.osgb"));
     notesOf(*withoutGlobe, "CoordinateSystemNode");
     empty->addChild(withoutGlobe);
-    const test::CapturedNotes notes(osg::NOTICE);
+    const CapturedNotes notes(osg::NOTICE);
     EXPECT_EQ(installBins(*empty), 1u);
     EXPECT_EQ(notes.count("0 tiles"), 0u);
     EXPECT_EQ(notes.count("\"\""), 0u);
@@ -253,4 +239,4 @@ TEST(InstallBinsCallback, AnExplicitInstallationWins) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,13 +4,7 @@
 // Skirts at the outer border of a database, where no neighbour stands before them. Oracle: the triangles that
 // osgTerrain draws.
 
-#include "DatabaseFixture.h"
-#include "TileFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <gtest/gtest.h>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -4,19 +4,9 @@
 // The table "What the kit notices" of the guide, line by line. Oracle: a tile on the other side of the globe is drawn
 // where something in front is not known to hide it, and only there.
 
-#include "ApplicationGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/NodeCallback>
 #include <osg/StateSet>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -3,18 +3,8 @@
 //
 // Tiles of other builders with an osg::ClusterCullingCallback: what becomes of it while bins are installed.
 
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/ClusterCullingCallback>
-#include <osg/Geode>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-
-#include <support/TemporaryFolder.h>
 #include <typeinfo>
 
 namespace osgAnalyticBin::test {

@@ -3,19 +3,8 @@
 //
 // Tiles behind a ridge, where OSG computes the near plane. Something far away beside them: tests/scenes/computed-near*.
 
-#include "CullFixture.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
-
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Camera>
-#include <osg/Geometry>
-#include <osgTerrain/Terrain>
-#include <osgUtil/CullVisitor>
-
-#include <support/CapturedNotes.h>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -3,13 +3,7 @@
 
 #pragma once
 
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-
-#include <algorithm>
-#include <map>
-#include <mutex>
-#include <string>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/CullOptions.h>
+#include "KitTest.h"
 
-#include <gtest/gtest.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 CullOptions parsed(const std::string& text) {
@@ -125,4 +123,4 @@ TEST(HeightsOnEarth, HoldTheHighestMountainAndTheDeepestSea) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,22 +4,11 @@
 // What hides is known to be drawn, and what is hidden is known to obey depth: meshes, states, callbacks, whatever an
 // application makes of them. More of it, and all states one by one: tests/scenes.
 
-#include "ApplicationGlobe.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Switch>
-#include <osg/Texture2D>
-#include <osgTerrain/Terrain>
-
-#include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -6,27 +6,14 @@
 
 #include "../../../osgAnalyticBin/src/kit/database/FailedReads.h"
 #include "CountedReads.h"
+#include "KitTest.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include <gtest/gtest.h>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-#include <osgTerrain/Terrain>
-
-#include <filesystem>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
-using test::CullView;
-using test::PagedFlight;
 
 const FailedReads::Clock::time_point kStart;
 
@@ -56,7 +43,7 @@ TEST(FailedReads, SuccessForgetsEarlierFailures) {
 class MissingTiles : public ::testing::Test {
 protected:
     void SetUp() override {
-        _scene = osgDB::readRefNodeFile(test::writeSyntheticDatabase(_folder.path()));
+        _scene = osgDB::readRefNodeFile(writeSyntheticDatabase(_folder.path()));
         ASSERT_TRUE(_scene);
         fs::create_directory(_folder / "away");
         for (const auto& entry : fs::directory_iterator(_folder.path())) {
@@ -72,9 +59,9 @@ protected:
             fs::copy(entry.path(), _folder / entry.path().filename().string());
     }
 
-    test::TemporaryFolder _folder;
+    TemporaryFolder _folder;
     osg::ref_ptr<osg::Node> _scene;
-    osg::ref_ptr<test::CountedReads> _attempts = new test::CountedReads;
+    osg::ref_ptr<CountedReads> _attempts = new CountedReads;
     const CullView _view = CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
 };
 
@@ -138,4 +125,4 @@ TEST_F(MissingTiles, LetAViewerRestUntilThereIsWork) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,26 +4,11 @@
 // Databases whose stored bins say less than their tiles hold: found when a tile is loaded, told once, and widened, so
 // that a tile is missing for no longer than the frame in which it appears.
 
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
-#include "TileFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/ValueObject>
 #include <osgDB/Options>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-#include <osgUtil/UpdateVisitor>
-
-#include <cmath>
-#include <set>
-#include <string>
-#include <support/CapturedNotes.h>
-#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
 namespace {

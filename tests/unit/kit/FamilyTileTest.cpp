@@ -4,20 +4,7 @@
 // What is delivered of kept tiles. Oracle: OSG's own traversal of the same scene, by a visitor of a derived class.
 // Random scenes have it, too: tests/long/scenes.
 
-#include "ApplicationGlobe.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Depth>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/UpdateVisitor>
-
-#include <support/Random.h>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

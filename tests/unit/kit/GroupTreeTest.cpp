@@ -7,17 +7,9 @@
 #include "../../../osgAnalyticBin/src/kit/CallbackChain.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileFamily.h"
 #include "../../../osgAnalyticBin/src/kit/tile/InstalledTile.h"
-#include "ApplicationGlobe.h"
-#include "CameraGlobe.h"
-
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
+#include "KitTest.h"
 
 #include <atomic>
-#include <thread>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,28 +5,13 @@
 // tests/long/scenes. What the core proves:
 // SortedEarthTest.cpp, HorizonTest.cpp.
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
 
-#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
 
-#include <gtest/gtest.h>
-#include <osg/AutoTransform>
-#include <osg/Camera>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/LOD>
-#include <osg/Projection>
 #include <osg/RenderInfo>
 #include <osg/View>
-
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

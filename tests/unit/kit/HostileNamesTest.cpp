@@ -3,19 +3,8 @@
 //
 // Files that name what is none of the database's business: the kit reads nothing that the pager does not ask for.
 
-#include "ApplicationGlobe.h"
 #include "CountedReads.h"
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osgDB/Registry>
-
-#include <support/CapturedNotes.h>
-#include <support/TemporaryFolder.h>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

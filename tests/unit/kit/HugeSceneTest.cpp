@@ -3,20 +3,7 @@
 //
 // Scenes that are deeper than any terrain. The kit's visitors end with the stack that OSG's own traversals need.
 
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/MatrixTransform>
-#include <osgUtil/UpdateVisitor>
-
-#include <functional>
-#include <string>
-#include <support/CapturedNotes.h>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

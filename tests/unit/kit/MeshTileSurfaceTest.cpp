@@ -3,24 +3,12 @@
 //
 // Surfaces of meshes. Oracle: samples of the triangles that are drawn, taken back to latitude, longitude and altitude.
 
-#include "DatabaseFixture.h"
-#include "TileFixture.h"
+#include "KitTest.h"
 #include "TileSurfaceCases.h"
 #include "VpbMesh.h"
 
-#include <gtest/gtest.h>
-#include <osg/Billboard>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
 #include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <support/Random.h>
 
 namespace osgAnalyticBin::test::surfaces {
 namespace {

@@ -4,19 +4,7 @@
 // An application's models beside the tiles and in their files: when the kit looks at them in a frame, and when it
 // leaves them to OSG. Oracle: nodes that count how often they are asked.
 
-#include "ApplicationGlobe.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/AutoTransform>
-#include <osg/Group>
-#include <osg/MatrixTransform>
-#include <osgDB/WriteFile>
-
-#include <functional>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

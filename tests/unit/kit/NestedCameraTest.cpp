@@ -5,37 +5,19 @@
 // of a stereo view. Oracle of these: samples of the tiles, projected by the matrices that the cull traversal holds for
 // each camera. Cameras of all frames and orders: tests/long/scenes. Shadow techniques: ShadowPassTest.cpp.
 
-#include "ApplicationGlobe.h"
-#include "CameraGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
 #include <osg/DisplaySettings>
 #include <osg/GraphicsContext>
-#include <osg/Projection>
 #include <osg/State>
-#include <osg/Texture2D>
 #include <osgUtil/SceneView>
 
-#include <array>
-#include <map>
-#include <support/Random.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 using osg::Camera;
 using osg::CullSettings;
 using osg::Transform;
-using test::CameraGlobe;
-using test::CullView;
-using test::kEarthRadius;
-using test::kOccluderDepth;
-using test::Look;
-using test::LookTotals;
-using test::NearPlane;
-using test::randomViewMatrix;
 
 // A camera's look from outside of the globe.
 CullView fromAfar() {
@@ -44,7 +26,7 @@ CullView fromAfar() {
 
 std::vector<Look> looksAt(osg::Node& scene, const CullView& view, CameraGlobe& globe) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(scene, view, *visitor);
+    cull(scene, view, *visitor);
     return globe.takeLooks();
 }
 
@@ -69,17 +51,17 @@ public:
 std::size_t reachedBy(osg::Node& scene, CameraGlobe& globe, osg::State* state = nullptr) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     visitor->setState(state);
-    test::cull(scene, fromAfar(), *visitor);
+    cull(scene, fromAfar(), *visitor);
     const std::vector<Look> looks = globe.takeLooks();
     return looks.empty() ? 0 : looks.back().reached.size();
 }
 
 TEST(DepthBuffers, OfTexturesHaveToBeFineForAHorizon) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     const std::size_t hidden = reachedBy(globe.root(), globe);
     const auto reachedWith = [&](const auto& setUp) {
-        const osg::ref_ptr<Camera> camera = test::makeCamera("texture", globe, Transform::RELATIVE_RF,
-                                                             Camera::PRE_RENDER, osg::Matrixd(), osg::Matrixd());
+        const osg::ref_ptr<Camera> camera =
+            makeCamera("texture", globe, Transform::RELATIVE_RF, Camera::PRE_RENDER, osg::Matrixd(), osg::Matrixd());
         camera->setRenderTargetImplementation(Camera::FRAME_BUFFER_OBJECT);
         camera->attach(Camera::COLOR_BUFFER, new osg::Texture2D);
         setUp(*camera);
@@ -100,7 +82,7 @@ TEST(DepthBuffers, OfTexturesHaveToBeFineForAHorizon) {
 }
 
 TEST(DepthBuffers, OfWindowsHaveToBeFineForAHorizon) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     const std::size_t hidden = reachedBy(globe.root(), globe);
     for (const unsigned int bits : {16u, 24u, 32u}) {
         const osg::ref_ptr<osg::GraphicsContext> window = new NoWindow(bits);
@@ -116,22 +98,22 @@ TEST(DepthBuffers, OfWindowsHaveToBeFineForAHorizon) {
 
 // What is behind the horizon of a light may still be what a shadow map needs: its back faces are drawn.
 TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
-    CameraGlobe globe(test::horizonOptions());
-    CullOptions asked = test::horizonOptions();
+    CameraGlobe globe(horizonOptions());
+    CullOptions asked = horizonOptions();
     asked.inheritViewpoint = true;
     CameraGlobe forShadows(asked);
     const CullView view = fromAfar();
     const auto reached = [&](CameraGlobe& scene, Transform::ReferenceFrame frame, bool depthMap, bool colours,
                              bool relativeInside) {
         const osg::ref_ptr<Camera> camera =
-            test::makeCamera("pass", scene, frame, Camera::PRE_RENDER, view.modelView, view.projection);
+            makeCamera("pass", scene, frame, Camera::PRE_RENDER, view.modelView, view.projection);
         const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
         if (depthMap) camera->attach(Camera::DEPTH_BUFFER, texture.get());
         if (colours) camera->attach(Camera::COLOR_BUFFER, texture.get());
         if (relativeInside) {
             camera->removeChildren(0, 1);
-            camera->addChild(test::makeCamera("inside", scene, Transform::RELATIVE_RF, Camera::PRE_RENDER,
-                                              osg::Matrixd(), osg::Matrixd()));
+            camera->addChild(makeCamera("inside", scene, Transform::RELATIVE_RF, Camera::PRE_RENDER, osg::Matrixd(),
+                                        osg::Matrixd()));
         }
         return looksAt(*camera, view, scene).at(0).reached.size();
     };
@@ -152,11 +134,11 @@ TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
 // Below the database's root the eye may change and the model-view matrix stay: from 500 km above the ground an eye sees
 // 22 degrees far, an orthographic view from there half of the globe.
 TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
-    const CullView view = test::MeshGlobe::fromAbove();
+    const CullView view = MeshGlobe::fromAbove();
     constexpr double kHalf = 7e6;
     const osg::Matrixd orthographic = osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7);
     for (const auto frame : {Transform::ABSOLUTE_RF, Transform::RELATIVE_RF}) {
-        test::MeshGlobe globe;
+        MeshGlobe globe;
         installBins(*globe.root);
         // 45 degrees and more from the eye
         const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
@@ -178,9 +160,9 @@ TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
 // The same below an osg::Projection, which leaves even the model-view matrix's place as it is: a tile, and a family.
 TEST(NestedCameras, ProjectionsBetweenADatabaseAndItsTilesHaveNoHorizonOfTheDatabase) {
     constexpr double kHalf = 7e6;
-    const CullView view = test::MeshGlobe::fromAbove();
+    const CullView view = MeshGlobe::fromAbove();
     for (const bool isFamily : {false, true}) {
-        test::MeshGlobe globe;
+        MeshGlobe globe;
         const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
         const osg::ref_ptr<osg::Group> family = new osg::Group;
         globe.root->replaceChild(tile, family);
@@ -202,7 +184,7 @@ TEST(Stereo, EachEyeKeepsWhatItSees) {
     // the eyes are this far apart for a screen at 0.5 m: a planet on the table
     constexpr double kEyeScale = 2e6;
     for (const auto mode : {DisplaySettings::QUAD_BUFFER, DisplaySettings::HORIZONTAL_SPLIT}) {
-        CameraGlobe globe(test::horizonOptions());
+        CameraGlobe globe(horizonOptions());
         const osg::ref_ptr<DisplaySettings> settings = new DisplaySettings;
         settings->setStereo(true);
         settings->setStereoMode(mode);
@@ -215,7 +197,7 @@ TEST(Stereo, EachEyeKeepsWhatItSees) {
         view->setFusionDistance(osgUtil::SceneView::USE_FUSION_DISTANCE_VALUE,
                                 static_cast<float>(kEyeScale * settings->getScreenDistance()));
         view->setFrameStamp(new osg::FrameStamp);
-        test::Random random(110);
+        Random random(110);
         LookTotals totals;
         bool areDifferent = false;
         for (int i = 0; i < 6; ++i) {
@@ -236,13 +218,13 @@ TEST(Stereo, EachEyeKeepsWhatItSees) {
 
 TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
     // Without frustum culling the frustum says nothing of what is drawn, and so the eye does not either: no horizon.
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 20.0);
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->setCullingActive(false);
     const auto add = [&](const char* name) {
         const osg::ref_ptr<Camera> camera =
-            test::makeCamera(name, globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER, view.modelView, view.projection);
+            makeCamera(name, globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER, view.modelView, view.projection);
         scene->addChild(camera);
         return camera;
     };
@@ -270,4 +252,4 @@ TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,17 +4,7 @@
 // Content that comes below a tile after the bin of that tile was fitted: it stood below another tile, or it was read
 // before bins were installed or by the application. Oracle: what is seen is drawn, in the frame in which it comes.
 
-#include "ApplicationGlobe.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/LightSource>
-#include <osgDB/WriteFile>
-#include <osgUtil/PositionalStateContainer>
-#include <osgUtil/RenderStage>
-
-#include <algorithm>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,23 +5,9 @@
 // have read. A node may then be in a scene already.
 
 #include "CountedReads.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/PagedLOD>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-#include <osgDB/WriteFile>
-
-#include <cstdlib>
-#include <string>
-#include <support/TemporaryFolder.h>
-#include <vector>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
@@ -66,9 +52,9 @@ protected:
         return dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions());
     }
 
-    test::TemporaryFolder _folder;
+    TemporaryFolder _folder;
     const std::string _file = _folder / "children.osgb";
-    osg::ref_ptr<osgDB::ReadFileCallback> _reader = new test::CountedReads;
+    osg::ref_ptr<osgDB::ReadFileCallback> _reader = new CountedReads;
 };
 
 // They outlive what belongs to an application.
@@ -77,7 +63,7 @@ TEST_F(ObjectCache, NothingOfOursIsInOsgsCaches) {
     plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
     for (const bool isRead : {false, true}) {
         osgDB::Registry::instance()->clearObjectCache();
-        _reader = isRead ? new test::CountedReads : nullptr;
+        _reader = isRead ? new CountedReads : nullptr;
         osg::ref_ptr<osgDB::Options> options = pagingOptions(osgDB::Options::CACHE_ALL);
         const osg::observer_ptr<osgDB::ReadFileCallback> ours = options->getReadFileCallback();
         osg::ref_ptr<osg::Node> some = osgDB::readRefNodeFile(_file, options);
@@ -167,4 +153,4 @@ TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsGetsNoBins) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,20 +4,8 @@
 // osgTerrain tiles that hide others. Which do, and what ends it: tests/scenes/ridge-*.scene, terrain-*.scene. Meshes:
 // TerrainOcclusionTest.cpp.
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
-#include "TileFixture.h"
-
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osgTerrain/GeometryTechnique>
-#include <osgTerrain/Terrain>
-
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

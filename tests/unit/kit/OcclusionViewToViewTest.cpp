@@ -4,22 +4,10 @@
 // What was found behind a ridge serves the next views, and never longer than it holds.
 
 #include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/CoveredPicture.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

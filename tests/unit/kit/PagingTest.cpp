@@ -5,29 +5,12 @@
 // keeps those out of view: its own rule, and CullOptions::expiry; time is simulated.
 
 #include "CountedReads.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
 #include <osgDB/FileCache>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-#include <osgDB/WriteFile>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +21,7 @@ const AnalyticBin kPagedBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100
 osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(new osg::Vec3Array(300));
-    osg::ref_ptr<osg::PagedLOD> paged = test::makePaged(geometry, fileName);
+    osg::ref_ptr<osg::PagedLOD> paged = makePaged(geometry, fileName);
     setStoredBin(*paged, kPagedBin);
     return paged;
 }
@@ -59,7 +42,7 @@ protected:
 
     osg::ref_ptr<osg::Node> readChildren() { return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged)); }
 
-    test::TemporaryFolder _folder;
+    TemporaryFolder _folder;
     osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
     osg::ref_ptr<osg::PagedLOD> _paged = makePagedTile("children.osgb");
 };
@@ -86,7 +69,7 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
 // As OSG has it: the options' own comes before the Registry's.
 TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
     for (const bool hasOwn : {true, false}) {
-        const osg::ref_ptr<test::CountedReads> own = new test::CountedReads, registrys = new test::CountedReads;
+        const osg::ref_ptr<CountedReads> own = new CountedReads, registrys = new CountedReads;
         const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
         if (hasOwn) users->setReadFileCallback(own);
         _paged->setDatabaseOptions(users);
@@ -182,9 +165,6 @@ TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
     EXPECT_FALSE(readChildren());
 }
 
-using test::lookDown;
-using test::PagedFlight;
-
 osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> files) {
     osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
     node->addChild(new osg::Group, 1e6f, 1e10f);
@@ -228,7 +208,7 @@ TEST(PagingExpiry, IsRaisedOnPagedChildrenWhereNobodyHasSetIt) {
 class TurningTheHead : public ::testing::Test {
 protected:
     void SetUp() override {
-        const std::string file = test::writeSyntheticDatabase(_folder.path());
+        const std::string file = writeSyntheticDatabase(_folder.path());
         ASSERT_FALSE(file.empty());
         _scene = osgDB::readRefNodeFile(file);
         ASSERT_TRUE(_scene);
@@ -236,9 +216,9 @@ protected:
     }
     void TearDown() override { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
 
-    test::TemporaryFolder _folder;
+    TemporaryFolder _folder;
     osg::ref_ptr<osg::Node> _scene;
-    osg::ref_ptr<test::CountedReads> _reads = new test::CountedReads;
+    osg::ref_ptr<CountedReads> _reads = new CountedReads;
 };
 
 // Fewer than the scene has at first, so that the pager drops whatever it may.
@@ -247,7 +227,7 @@ constexpr int kFramesOfNearlyTwoSeconds = 118;
 
 TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
     for (const CullOptions& options : {CullOptions(), withExpiry(0.0)}) {
-        osgDB::Registry::instance()->setReadFileCallback(_reads = new test::CountedReads);
+        osgDB::Registry::instance()->setReadFileCallback(_reads = new CountedReads);
         const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "globe.osgb");
         installBins(*scene, options);
         PagedFlight flight(*scene, kSmallTarget);
@@ -262,4 +242,4 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -3,34 +3,18 @@
 //
 // Which databases are taken for maps, and what bins of maps change in them.
 
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 #include "PagedFlight.h"
 #include "PlanarMap.h"
-#include "TileFixture.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/ClusterCullingCallback>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osgTerrain/TerrainTile>
-
-#include <cmath>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
-
-using test::optionsOf;
-using test::PlanarMap;
 
 enum class Callback { None, Planar, Geocentric };
 
 // Installs bins on a paged tile with this mesh. Returns: which callback the tile got.
 Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
-    const osg::ref_ptr<osg::PagedLOD> tile = test::makePaged(mesh, "parts.osgb");
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "parts.osgb");
     root.removeChildren(0, root.getNumChildren());
     root.addChild(tile);
     const std::size_t installed = installBins(root);
@@ -48,7 +32,7 @@ TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {
         bool hasEllipsoid, isTerrain;
         Callback expected;
     };
-    const std::string utm = test::kUtm;
+    const std::string utm = kUtm;
     const std::vector<Row> rows{
         {"WKT", utm, false, false, Callback::Planar},
         {"WKT", utm, false, true, Callback::Planar},
@@ -112,7 +96,7 @@ TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
         const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
         geometry->setVertexArray(vertices);
         geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 6));
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
         EXPECT_EQ(installedOn(*root, geometry), Callback::None) << latitude;
         root->setEllipsoidModel(new osg::EllipsoidModel);
         EXPECT_EQ(installedOn(*root, geometry), Callback::Geocentric) << latitude;
@@ -121,7 +105,7 @@ TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
     PlanarMap map;
     map.isTerrain = false;
     map.origin.y() = 6340000.0;
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
     root->setEllipsoidModel(new osg::EllipsoidModel);
     EXPECT_EQ(installedOn(*root, map.mesh(2, 0, 0)), Callback::None);
 }
@@ -135,7 +119,7 @@ osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
 
 TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
     const osg::Vec3 a(0, 0, 0), b(100, 0, 0), c(0, 100, 0), up(0, 0, 50);
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
     ASSERT_EQ(installedOn(*root, triangles({a, b, c})), Callback::Planar);
     ASSERT_EQ(installedOn(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
     EXPECT_EQ(installedOn(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
@@ -171,10 +155,10 @@ TEST(PlanarDatabase, TextTellsAMap) {
 }
 
 TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
     PlanarMap map;
     map.isTerrain = false;
-    const osg::ref_ptr<osg::PagedLOD> tile = test::makePaged(map.mesh(0, 0, 0), "parts.osgb");
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(map.mesh(0, 0, 0), "parts.osgb");
     const osg::ref_ptr<osg::ClusterCullingCallback> cluster = new osg::ClusterCullingCallback;
     cluster->set(osg::Vec3(1, 2, 3), osg::Vec3(0, 0, 1), -0.5f, 1000.0f);
     tile->setCullCallback(cluster);
@@ -186,7 +170,7 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
     }
     EXPECT_EQ(cluster->getDeviation(), -0.5f);
     // without declared heights the bins hold all terrain on earth, in feet
-    const core::Interval heights = test::installedOn(*tile)->getBin().bin().altitude();
+    const core::Interval heights = installedOn(*tile)->getBin().bin().altitude();
     EXPECT_GE(heights.upper, 8849.0 / 0.3048);
     EXPECT_LE(heights.lower, -10935.0 / 0.3048);
     EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);
@@ -198,4 +182,4 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

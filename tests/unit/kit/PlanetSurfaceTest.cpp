@@ -5,22 +5,11 @@
 // kilometres and with an equatorial radius of one. Oracle: samples of the triangles that are drawn, taken back to
 // latitude, longitude and altitude.
 
-#include "TileFixture.h"
+#include "KitTest.h"
 #include "TileSurfaceCases.h"
 #include "VpbMesh.h"
 
-#include <gtest/gtest.h>
-#include <osg/MatrixTransform>
-#include <osgTerrain/Layer>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
 #include <support/Planets.h>
-#include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test::surfaces {
 namespace {

@@ -7,35 +7,12 @@
 // can say come last: one whose picture is in doubt has no horizon, and one of numbers that are none culls nothing.
 // Cameras in scenes: NestedCameraTest.cpp.
 
-#include "CameraGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/Projection>
-
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <support/CapturedNotes.h>
 #include <support/Numbers.h>
-#include <support/Random.h>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
-
-using test::osgVector;
-
-using test::CameraGlobe;
-using test::CullView;
-using test::kEarthRadius;
-using test::kInfinity;
-using test::kNaN;
-using test::kOccluderDepth;
-using test::Look;
-using test::LookTotals;
-using test::NearPlane;
-using test::randomViewMatrix;
 
 // Clip space z -> -z.
 osg::Matrixd reversed(const osg::Matrixd& projection) {
@@ -46,7 +23,7 @@ osg::Matrixd infiniteFar(double tangent, double near) {
     return osg::Matrixd(1.0 / tangent, 0, 0, 0, 0, 1.0 / tangent, 0, 0, 0, 0, -1.0, -1.0, 0, 0, -2.0 * near, 0);
 }
 
-osg::Matrixd randomFrustum(test::Random& random, double near = 1.0, double far = 1e8) {
+osg::Matrixd randomFrustum(Random& random, double near = 1.0, double far = 1e8) {
     const double x = random.uniform(-0.8, 0.8);
     const double y = random.uniform(-0.8, 0.8);
     const double width = random.uniform(0.1, 0.6);
@@ -55,7 +32,7 @@ osg::Matrixd randomFrustum(test::Random& random, double near = 1.0, double far =
                                  far);
 }
 
-osg::Matrixd randomOrtho(test::Random& random, double near, double far) {
+osg::Matrixd randomOrtho(Random& random, double near, double far) {
     const double x = random.uniform(-2e6, 2e6);
     const double y = random.uniform(-2e6, 2e6);
     const double width = random.logUniform(1e5, 4e6);
@@ -64,7 +41,7 @@ osg::Matrixd randomOrtho(test::Random& random, double near, double far) {
 }
 
 // An oblique near plane, through a random point before the camera.
-osg::Matrixd withObliqueNearPlane(osg::Matrixd projection, test::Random& random) {
+osg::Matrixd withObliqueNearPlane(osg::Matrixd projection, Random& random) {
     osg::Vec4d plane(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1.0, -random.logUniform(1.0, 1e4));
     osg::Matrixd unproject;
     unproject.invert(projection);
@@ -77,17 +54,17 @@ osg::Matrixd withObliqueNearPlane(osg::Matrixd projection, test::Random& random)
 
 struct Kind {
     const char* name;
-    std::function<osg::Matrixd(test::Random&)> view;
-    std::function<osg::Matrixd(test::Random&)> projection;
+    std::function<osg::Matrixd(Random&)> view;
+    std::function<osg::Matrixd(Random&)> projection;
     NearPlane nearPlane = NearPlane::AtMinusOne;
     bool hasHorizon = true;  // whether the horizon is worth anything here
 };
 
-osg::Matrixd anyView(test::Random& random) {
+osg::Matrixd anyView(Random& random) {
     return randomViewMatrix(random);
 }
 
-osg::Matrixd mirroredView(test::Random& random) {
+osg::Matrixd mirroredView(Random& random) {
     // as for the picture of a plane mirror somewhere on the globe
     const osg::Vec3d normal = osgVector(random.direction());
     const double offset = random.uniform(-1.0, 1.0) * kEarthRadius;
@@ -100,40 +77,36 @@ osg::Matrixd mirroredView(test::Random& random) {
 }
 
 const Kind kKinds[] = {
-    {"off-axis", anyView, [](test::Random& random) { return randomFrustum(random); }},
-    {"mirror", mirroredView, [](test::Random& random) { return randomFrustum(random); }},
+    {"off-axis", anyView, [](Random& random) { return randomFrustum(random); }},
+    {"mirror", mirroredView, [](Random& random) { return randomFrustum(random); }},
     {"negative aspect", anyView,
-     [](test::Random& random) { return osg::Matrixd::perspective(random.uniform(5, 90), -1.5, 1.0, 1e8); }},
+     [](Random& random) { return osg::Matrixd::perspective(random.uniform(5, 90), -1.5, 1.0, 1e8); }},
     {"upside down", anyView,
-     [](test::Random& random) { return randomFrustum(random) * osg::Matrixd::scale(1.0, -1.0, 1.0); }},
-    {"infinite far", anyView, [](test::Random& random) { return infiniteFar(random.uniform(0.1, 1.0), 1.0); }},
-    {"reversed depth", anyView, [](test::Random& random) { return reversed(randomFrustum(random)); },
-     NearPlane::AtPlusOne, false},
-    {"reversed depth, infinite far", anyView,
-     [](test::Random& random) { return reversed(infiniteFar(random.uniform(0.1, 1.0), 1.0)); }, NearPlane::AtPlusOne,
+     [](Random& random) { return randomFrustum(random) * osg::Matrixd::scale(1.0, -1.0, 1.0); }},
+    {"infinite far", anyView, [](Random& random) { return infiniteFar(random.uniform(0.1, 1.0), 1.0); }},
+    {"reversed depth", anyView, [](Random& random) { return reversed(randomFrustum(random)); }, NearPlane::AtPlusOne,
      false},
-    {"oblique near plane", anyView,
-     [](test::Random& random) { return withObliqueNearPlane(randomFrustum(random), random); }},
-    {"deep near plane", anyView,
-     [](test::Random& random) { return randomFrustum(random, random.logUniform(1e4, 2e7), 1e9); },
+    {"reversed depth, infinite far", anyView,
+     [](Random& random) { return reversed(infiniteFar(random.uniform(0.1, 1.0), 1.0)); }, NearPlane::AtPlusOne, false},
+    {"oblique near plane", anyView, [](Random& random) { return withObliqueNearPlane(randomFrustum(random), random); }},
+    {"deep near plane", anyView, [](Random& random) { return randomFrustum(random, random.logUniform(1e4, 2e7), 1e9); },
      NearPlane::AtMinusOne, false},
     {"deep near plane, reversed depth", anyView,
-     [](test::Random& random) { return reversed(randomFrustum(random, random.logUniform(1e4, 2e7), 1e9)); },
+     [](Random& random) { return reversed(randomFrustum(random, random.logUniform(1e4, 2e7), 1e9)); },
      NearPlane::AtPlusOne, false},
-    {"orthographic", anyView, [](test::Random& random) { return randomOrtho(random, -5e7, 1e8); }},
-    {"orthographic, mirrored", mirroredView, [](test::Random& random) { return randomOrtho(random, -5e7, 1e8); }},
+    {"orthographic", anyView, [](Random& random) { return randomOrtho(random, -5e7, 1e8); }},
+    {"orthographic, mirrored", mirroredView, [](Random& random) { return randomOrtho(random, -5e7, 1e8); }},
     {"orthographic, near plane anywhere", anyView,
-     [](test::Random& random) { return randomOrtho(random, random.uniform(-3e7, 3e7), 1e8); }, NearPlane::AtMinusOne,
-     false},
-    {"orthographic, reversed depth", anyView,
-     [](test::Random& random) { return reversed(randomOrtho(random, -5e7, 1e8)); }, NearPlane::AtPlusOne, false},
-    {"orthographic, near beyond far", anyView, [](test::Random& random) { return randomOrtho(random, 1e8, -5e7); },
+     [](Random& random) { return randomOrtho(random, random.uniform(-3e7, 3e7), 1e8); }, NearPlane::AtMinusOne, false},
+    {"orthographic, reversed depth", anyView, [](Random& random) { return reversed(randomOrtho(random, -5e7, 1e8)); },
+     NearPlane::AtPlusOne, false},
+    {"orthographic, near beyond far", anyView, [](Random& random) { return randomOrtho(random, 1e8, -5e7); },
      NearPlane::AtMinusOne, false},
 };
 
 constexpr int kViews = 20;
 
-CullView viewOf(const Kind& kind, test::Random& random) {
+CullView viewOf(const Kind& kind, Random& random) {
     CullView view;
     view.modelView = kind.view(random);
     view.projection = kind.projection(random);
@@ -141,7 +114,7 @@ CullView viewOf(const Kind& kind, test::Random& random) {
 }
 
 Look lookOf(CameraGlobe& globe, const CullView& view, osgUtil::CullVisitor& visitor) {
-    test::cull(globe.root(), view, visitor);
+    cull(globe.root(), view, visitor);
     return globe.takeLooks().at(0);
 }
 
@@ -154,7 +127,7 @@ Look lookOf(CameraGlobe& globe, const CullView& view) {
 LookTotals totalsOf(const Kind& kind, CameraGlobe& globe, std::uint64_t seed, NearPlane beginning,
                     int cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING,
                     std::optional<double> occluder = std::nullopt) {
-    test::Random random(seed);
+    Random random(seed);
     LookTotals totals;
     for (int i = 0; i < kViews; ++i) {
         CullView view = viewOf(kind, random);
@@ -180,7 +153,7 @@ TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
 
 TEST(Projections, TheHorizonHidesNothingInThePicture) {
     constexpr int kSides = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     CameraGlobe without;
     for (const Kind& kind : kKinds) {
         const LookTotals totals = totalsOf(kind, globe, 71, kind.nearPlane, kSides, kOccluderDepth);
@@ -222,7 +195,7 @@ osg::Matrixd alongX(double eye) {
 
 // With OSG's default depth test, LESS, the farthest surface is drawn then.
 TEST(Projections, ReversedDepthHidesNothing) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
     view.projection = reversed(view.projection);
@@ -231,7 +204,7 @@ TEST(Projections, ReversedDepthHidesNothing) {
 
 // With near and far computed, OSG draws nothing that is wholly behind the eye of an orthographic camera.
 TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     CullView view;
     view.modelView = alongX(0.0);
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, -1e8, 1e8);
@@ -263,7 +236,7 @@ TEST(Projections, ATiltedNearPlaneCutsTheGlobeOpenAtOneSide) {
 // Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
 // differ; so does one that is culled for twice in a frame, moved along its view.
 TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     for (const double near : {1e6, 3e7, 1e6}) {
         const osg::ref_ptr<osg::Projection> projection =
@@ -274,7 +247,7 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     }
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*scene, view, *visitor);
+    cull(*scene, view, *visitor);
     const std::vector<Look> looks = globe.takeLooks();
     ASSERT_EQ(looks.size(), 3u);
     LookTotals totals;
@@ -287,22 +260,21 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1.0, 1e8);
     for (const double x : {3e7, 1e6, 3e7, 0.0}) {
         view.modelView = osg::Matrixd::lookAt(osg::Vec3d(x, 0, 0), osg::Vec3d(x - 1.0, 0, 0), osg::Vec3d(0, 0, 1));
-        test::cull(globe.root(), view, *visitor);
+        cull(globe.root(), view, *visitor);
         const Look look = globe.takeLooks().at(0);
         EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << x;
         EXPECT_EQ(look.reached.size() < 128u, x > kEarthRadius) << x;
     }
 }
 
-osg::Vec3d anySample(const CameraGlobe& globe, test::Random& random) {
+osg::Vec3d anySample(const CameraGlobe& globe, Random& random) {
     const auto& samples = globe.samplesOf(static_cast<std::size_t>(random.integer(0, int(globe.size()) - 1)));
     return samples[static_cast<std::size_t>(random.integer(0, int(samples.size()) - 1))];
 }
 
 // A view at a sample, so that even the narrowest picture shows one.
-osg::Matrixd viewAtSample(const CameraGlobe& globe, test::Random& random) {
-    return osg::Matrixd::lookAt(test::randomEyeAbove(random, 2e4), anySample(globe, random),
-                                osgVector(random.direction()));
+osg::Matrixd viewAtSample(const CameraGlobe& globe, Random& random) {
+    return osg::Matrixd::lookAt(randomEyeAbove(random, 2e4), anySample(globe, random), osgVector(random.direction()));
 }
 
 osg::Matrixd homogeneous(osg::Matrixd matrix, double factor) {
@@ -310,11 +282,11 @@ osg::Matrixd homogeneous(osg::Matrixd matrix, double factor) {
     return matrix;
 }
 
-osg::Matrixd turned(test::Random& random) {
+osg::Matrixd turned(Random& random) {
     return osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osgVector(random.direction()));
 }
 
-using Maker = std::function<CullView(const CameraGlobe&, test::Random&)>;
+using Maker = std::function<CullView(const CameraGlobe&, Random&)>;
 
 struct Extreme {
     const char* name;
@@ -332,13 +304,13 @@ CullView viewOf(const osg::Matrixd& modelView, const osg::Matrixd& projection) {
 const osg::Matrixd kPlain = osg::Matrixd::perspective(50.0, 1.3, 1.0, 1e8);
 
 Maker withProjection(const osg::Matrixd& projection) {
-    return [projection](const CameraGlobe& globe, test::Random& random) {
+    return [projection](const CameraGlobe& globe, Random& random) {
         return viewOf(viewAtSample(globe, random), projection);
     };
 }
 
-Maker withView(const std::function<osg::Matrixd(test::Random&)>& view) {
-    return [view](const CameraGlobe&, test::Random& random) { return viewOf(view(random), kPlain); };
+Maker withView(const std::function<osg::Matrixd(Random&)>& view) {
+    return [view](const CameraGlobe&, Random& random) { return viewOf(view(random), kPlain); };
 }
 
 // Depth from 0 to 1, as glClipControl(GL_ZERO_TO_ONE) wants it, reversed and infinite.
@@ -355,11 +327,11 @@ const Extreme kTrue[] = {
     {"reversed, infinite, from 0", withProjection(reversedInfiniteFromZero(1.0))},
     {"tiny homogeneous", withProjection(homogeneous(kPlain, 1e-150))},
     {"near 1e-30", withProjection(osg::Matrixd::perspective(40.0, 1.0, 1e-30, 1e8))},
-    {"eye in the centre", withView([](test::Random& random) {
+    {"eye in the centre", withView([](Random& random) {
          return osg::Matrixd::lookAt(osg::Vec3d(), osgVector(random.direction()), osgVector(random.direction()));
      })},
     {"eye in a bin",
-     [](const CameraGlobe& globe, test::Random& random) {
+     [](const CameraGlobe& globe, Random& random) {
          const osg::Vec3d eye = anySample(globe, random);
          return viewOf(osg::Matrixd::lookAt(eye, eye + osgVector(random.direction()), osgVector(random.direction())),
                        kPlain);
@@ -373,32 +345,31 @@ const Extreme kDoubtful[] = {
     {"no width", withProjection(osg::Matrixd::ortho(0, 0, -1e6, 1e6, 1.0, 1e8))},
     {"squares that underflow", withProjection(homogeneous(kPlain, 1e-161)), true},
     {"squares that overflow", withProjection(homogeneous(kPlain, 1e160)), true},
-    {"looking at itself", withView([](test::Random&) {
+    {"looking at itself", withView([](Random&) {
          return osg::Matrixd::lookAt(osg::Vec3d(9e6, 0, 0), osg::Vec3d(9e6, 0, 0), osg::Vec3d(0, 0, 1));
      })},
-    {"looking up", withView([](test::Random&) {
-         return osg::Matrixd::lookAt(osg::Vec3d(9e6, 0, 0), osg::Vec3d(), osg::Vec3d(1, 0, 0));
-     })},
+    {"looking up",
+     withView([](Random&) { return osg::Matrixd::lookAt(osg::Vec3d(9e6, 0, 0), osg::Vec3d(), osg::Vec3d(1, 0, 0)); })},
     {"flat view",
-     [](const CameraGlobe& globe, test::Random& random) {
+     [](const CameraGlobe& globe, Random& random) {
          // of rank two, though rounding gives it some inverse
          const osg::Matrixd turn = turned(random);
          const osg::Matrixd flat = turn * osg::Matrixd::scale(1.0, 1.0, 0.0) * osg::Matrixd::inverse(turn);
          return viewOf(flat * viewAtSample(globe, random), kPlain);
      }},
     {"view of rank one",
-     [](const CameraGlobe& globe, test::Random& random) {
+     [](const CameraGlobe& globe, Random& random) {
          const osg::Matrixd turn = turned(random);
          return viewOf(turn * osg::Matrixd::scale(0.0, 1.0, 0.0) * viewAtSample(globe, random), kPlain);
      }},
     {"projective view",
-     [](const CameraGlobe& globe, test::Random& random) {
+     [](const CameraGlobe& globe, Random& random) {
          osg::Matrixd view = viewAtSample(globe, random);
          for (int row = 0; row < 3; ++row) view(row, 3) = random.uniform(-1e-6, 1e-6);
          return viewOf(view, kPlain);
      }},
     {"negative homogeneous view",
-     [](const CameraGlobe& globe, test::Random& random) {
+     [](const CameraGlobe& globe, Random& random) {
          return viewOf(homogeneous(viewAtSample(globe, random), -1.0), kPlain);
      }},
 };
@@ -419,9 +390,9 @@ std::vector<CullView> inAllModes(CullView view) {
 
 TEST(DegenerateCameras, WithAPictureCullSoundlyAndDoCull) {
     for (const Method method : {Method::Quadratic, Method::Exact}) {
-        CameraGlobe globe(test::horizonOptions(method));
+        CameraGlobe globe(horizonOptions(method));
         for (const Extreme& kind : kTrue) {
-            test::Random random(90);
+            Random random(90);
             LookTotals totals;
             for (int i = 0; i < kViews / 2; ++i) {
                 CullView view = kind.view(globe, random);
@@ -436,9 +407,9 @@ TEST(DegenerateCameras, WithAPictureCullSoundlyAndDoCull) {
 
 TEST(DegenerateCameras, InDoubtKeepWhatMayBeInThePictureAndHideNothing) {
     for (const Method method : {Method::Quadratic, Method::Exact}) {
-        CameraGlobe globe(test::horizonOptions(method));
+        CameraGlobe globe(horizonOptions(method));
         for (const Extreme& kind : kDoubtful) {
-            test::Random random(91);
+            Random random(91);
             for (int i = 0; i < kViews / 2; ++i) {
                 for (const CullView& view : inAllModes(kind.view(globe, random))) {
                     LookTotals totals;
@@ -456,7 +427,7 @@ TEST(DegenerateCameras, InDoubtKeepWhatMayBeInThePictureAndHideNothing) {
 // Squares of their normals are subnormal, so that OSG gets their length wrong by up to a tenth.
 TEST(DegenerateCameras, PlanesWithoutUnitLengthDecideNothing) {
     CameraGlobe globe;
-    test::Random random(94);
+    Random random(94);
     LookTotals totals;
     for (int i = 0; i < 500; ++i) {
         const double scale = random.logUniform(1e-162, 1e-160);
@@ -467,8 +438,8 @@ TEST(DegenerateCameras, PlanesWithoutUnitLengthDecideNothing) {
 
 TEST(DegenerateCameras, ThatAreNoNumbersCullNothingByAnyMethod) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Sphere, Method::None}) {
-        CameraGlobe globe(test::horizonOptions(method));
-        test::Random random(92);
+        CameraGlobe globe(horizonOptions(method));
+        Random random(92);
         for (const double bad : {kNaN, -kInfinity}) {
             for (int place = 0; place < 32; ++place) {
                 CullView view = viewOf(viewAtSample(globe, random), kPlain);
@@ -486,9 +457,9 @@ TEST(DegenerateCameras, ThatAreNoNumbersCullNothingByAnyMethod) {
 }
 
 TEST(DegenerateCameras, OfZerosCullNothing) {
-    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe globe(horizonOptions());
     const osg::Matrixd zero(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
-    test::Random random(94);
+    Random random(94);
     for (const CullView& view : {viewOf(zero, kPlain), viewOf(viewAtSample(globe, random), zero)}) {
         for (const CullView& each : inAllModes(view)) EXPECT_EQ(lookOf(globe, each).reached.size(), globe.size());
     }
@@ -496,7 +467,7 @@ TEST(DegenerateCameras, OfZerosCullNothing) {
 
 // A frame that squeezes the globe flat tells nothing of where a plane is on it.
 TEST(DegenerateCameras, AFrameWithoutAnInverseMeansVisible) {
-    test::Random random(93);
+    Random random(93);
     for (int i = 0; i < 50; ++i) {
         const osg::Matrixd turn = turned(random);
         const osg::Matrixd flat = turn * osg::Matrixd::scale(1.0, 1.0, 0.0) * osg::Matrixd::inverse(turn);
@@ -505,9 +476,9 @@ TEST(DegenerateCameras, AFrameWithoutAnInverseMeansVisible) {
         osg::Matrixd unknown;
         unknown(3, 1) = kNaN;
         for (const osg::Matrixd& matrix : {flat, projective, unknown}) {
-            const test::CapturedNotes notes;
+            const CapturedNotes notes;
             const osg::ref_ptr<AnalyticBinCullCallback> callback =
-                new AnalyticBinCullCallback(test::startTiles().front(), osg::EllipsoidModel());
+                new AnalyticBinCullCallback(startTiles().front(), osg::EllipsoidModel());
             callback->setLocalToEcef(matrix);
             EXPECT_FALSE(callback->getBin().valid());
         }
@@ -515,4 +486,4 @@ TEST(DegenerateCameras, AFrameWithoutAnInverseMeansVisible) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -4,20 +4,7 @@
 // The horizon of databases that cover a part of the globe, and when those of other builders, which declare none, have
 // one. More regions: tests/scenes. What the core proves: CoveredRegionTest.cpp.
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/LOD>
-#include <osg/MatrixTransform>
-
-#include <support/CapturedNotes.h>
-#include <utility>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -3,16 +3,7 @@
 //
 // Where bins gain nothing, the database is left to OSG.
 
-#include "ApplicationGlobe.h"
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Group>
-#include <osg/PagedLOD>
-#include <osgTerrain/Terrain>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

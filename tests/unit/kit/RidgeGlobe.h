@@ -3,16 +3,9 @@
 
 #pragma once
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/CullOptions.h>
-
-#include <osg/PagedLOD>
 #include <osg/ref_ptr>
-
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -3,19 +3,9 @@
 //
 // What is drawn is selected before: callbacks of an application that change something in between.
 
-#include "ApplicationGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Depth>
-#include <osg/FrameStamp>
 #include <osg/observer_ptr>
-#include <osgUtil/CullVisitor>
-
-#include <functional>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -4,33 +4,21 @@
 // The shadow maps of osgShadow: tiles outside of the picture, and beyond the viewer's horizon, still cast shadows into
 // it. Oracles: the same scene without a horizon; samples of the tiles, projected by the picture's matrices.
 
-#include "CameraGlobe.h"
+#include "KitTest.h"
 
-#include <gtest/gtest.h>
-#include <osg/LightSource>
 #include <osgShadow/ShadowSettings>
 #include <osgShadow/ShadowedScene>
 #include <osgShadow/ViewDependentShadowMap>
-#include <osgUtil/UpdateVisitor>
 
-#include <cmath>
-#include <support/Random.h>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
-
-using test::CameraGlobe;
-using test::CullView;
-using test::kEarthRadius;
-using test::Look;
-using test::LookTotals;
 
 // A sun, and a viewer above the ground near the line between day and night.
 struct Evening {
     osg::Vec3d eye, toLight;
     CullView view;
 
-    explicit Evening(test::Random& random) {
+    explicit Evening(Random& random) {
         const auto direction = [&] {
             const glm::dvec3 d = random.direction();
             return osg::Vec3d(d.x, d.y, d.z);
@@ -72,14 +60,14 @@ std::vector<Look> looksAt(osgShadow::ShadowedScene& scene, CullView view, Camera
     view.camera->setProjectionMatrix(view.projection);
     view.camera->setComputeNearFarMode(view.computeNearFar);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(scene, view, *visitor);
+    cull(scene, view, *visitor);
     return globe.takeLooks();
 }
 
 // The technique may have near and far planes computed for its own use: the projection stays as it is.
 TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
-    CameraGlobe globe(test::horizonOptions());
-    test::Random random(122);
+    CameraGlobe globe(horizonOptions());
+    Random random(122);
     LookTotals totals;
     for (int i = 0; i < 8; ++i) {
         Evening evening(random);
@@ -88,10 +76,10 @@ TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
         const osg::ref_ptr<osgShadow::ShadowedScene> scene = shadowedScene(globe, technique.get(), evening.toLight);
         scene->getShadowSettings()->setComputeNearFarModeOverride(osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES);
         const std::vector<Look> looks = looksAt(*scene, evening.view, globe);
-        EXPECT_TRUE(totals.add(globe, looks.at(0), test::NearPlane::AtMinusOne).empty()) << i;
+        EXPECT_TRUE(totals.add(globe, looks.at(0), NearPlane::AtMinusOne).empty()) << i;
     }
     EXPECT_GT(totals.seen, 8u);
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -8,19 +8,9 @@
 #include "../../../osgAnalyticBin/src/kit/cull/ShownDepth.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileSelection.h"
 #include "../../../osgAnalyticBin/src/kit/tile/InstalledDatabase.h"
-#include "CameraGlobe.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

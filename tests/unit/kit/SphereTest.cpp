@@ -3,22 +3,10 @@
 //
 // OSG's own spheres on tiles and on groups above them, which bins leave in use, and which occluders are compared with.
 
-#include "ApplicationGlobe.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <gtest/gtest.h>
 #include <osg/ConvexPlanarOccluder>
-#include <osg/Geode>
-#include <osg/Group>
-#include <osg/LOD>
 #include <osg/OccluderNode>
-#include <osg/PagedLOD>
-
-#include <support/CapturedNotes.h>
-#include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 namespace {

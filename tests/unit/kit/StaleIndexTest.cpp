@@ -4,21 +4,7 @@
 // An index beside a database: how it is used, and what becomes of tiles that are no longer as it knows them. Its file
 // format is tested in BinIndexTest.cpp.
 
-#include "DatabaseFixture.h"
-
-#include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileFinder.h>
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <gtest/gtest.h>
-#include <osgDB/ReadFile>
-#include <osgUtil/UpdateVisitor>
-
-#include <filesystem>
-#include <support/CapturedNotes.h>
-#include <support/TemporaryFolder.h>
-#include <utility>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

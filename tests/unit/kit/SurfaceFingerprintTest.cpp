@@ -1,19 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "TileFixture.h"
-
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <gtest/gtest.h>
-#include <osg/Billboard>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osgTerrain/Layer>
-#include <osgTerrain/ValidDataOperator>
-
-#include <cmath>
-#include <set>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -3,27 +3,15 @@
 //
 // Databases that change how they are culled while they are shown. Oracle: the same database, read anew with the method.
 
+#include "KitTest.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
 #include <osg/Stats>
-#include <osgDB/ReadFile>
 
 #include <cstdio>
-#include <cstdlib>
-#include <support/CapturedNotes.h>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
-
-using test::CullView;
-using test::lookDown;
-using test::PagedFlight;
 
 CullOptions by(Method method) {
     CullOptions options;
@@ -33,7 +21,7 @@ CullOptions by(Method method) {
 
 std::set<const osg::Node*> inactiveNodes(osg::Node& scene) {
     std::set<const osg::Node*> nodes;
-    test::visitNodes(scene, [&](osg::Node& node) {
+    visitNodes(scene, [&](osg::Node& node) {
         if (!node.getCullingActive()) nodes.insert(&node);
     });
     return nodes;
@@ -41,7 +29,7 @@ std::set<const osg::Node*> inactiveNodes(osg::Node& scene) {
 
 unsigned int valuesIn(osg::Node& scene) {
     unsigned int values = 0;
-    test::visitNodes(scene, [&](osg::Node& node) {
+    visitNodes(scene, [&](osg::Node& node) {
         if (node.getUserDataContainer()) values += node.getUserDataContainer()->getNumUserObjects();
     });
     return values;
@@ -50,7 +38,7 @@ unsigned int valuesIn(osg::Node& scene) {
 class SwitchedCulling : public ::testing::Test {
 protected:
     void SetUp() override {
-        _file = test::writeSyntheticDatabase(_folder.path());
+        _file = writeSyntheticDatabase(_folder.path());
         ASSERT_FALSE(_file.empty());
     }
 
@@ -67,7 +55,7 @@ protected:
         return flight.drawn();
     }
 
-    test::TemporaryFolder _folder;
+    TemporaryFolder _folder;
     std::string _file;
 };
 
@@ -104,7 +92,7 @@ protected:
 
 TEST_F(ComparedCulling, DrawsInEachTurnWhatItsMethodDraws) {
     const auto bins = drawnAfresh(Method::Quadratic, lookDown(1)), spheres = drawnAfresh(Method::Sphere, lookDown(1));
-    const test::CapturedNotes notices(osg::NOTICE);
+    const CapturedNotes notices(osg::NOTICE);
     PagedFlight flight(*_scene);
     for (const bool isStock : {false, true, false, true}) {
         EXPECT_TRUE(flight.framesUntil(lookDown(1), [&] {
@@ -147,7 +135,7 @@ TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
 }
 
 TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
-    const test::CapturedNotes notices;
+    const CapturedNotes notices;
     for (const char* const text : {"soon", "-1", "nan", ""}) {
         setenv("OSGANALYTICBIN_COMPARE", text, 1);
         const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
@@ -178,4 +166,4 @@ TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

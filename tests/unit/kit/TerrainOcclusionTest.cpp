@@ -4,21 +4,8 @@
 // Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
+#include "KitTest.h"
 #include "RidgeGlobe.h"
-
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/CoveredPicture.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/Viewport>
-
-#include <algorithm>
-#include <utility>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -4,21 +4,7 @@
 // What osgTerrain::Terrain says about its tiles: vertical scale, equalised boundaries, another technique; set before
 // bins are installed, and changed while the database is shown. Oracle: the triangles that osgTerrain draws.
 
-#include "CameraGlobe.h"
-#include "DatabaseFixture.h"
-#include "TileFixture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osgTerrain/GeometryTechnique>
-#include <osgUtil/UpdateVisitor>
-
-#include <algorithm>
-#include <set>
-#include <support/CapturedNotes.h>
-#include <support/Random.h>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

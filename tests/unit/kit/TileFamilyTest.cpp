@@ -3,26 +3,9 @@
 //
 // Families of sibling tiles against the tiles' own callbacks: a callback behind a family's leaves all to these.
 
-#include "ApplicationGlobe.h"
-#include "CullFixture.h"
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/InstallBins.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/Geometry>
-#include <osg/LOD>
-#include <osgUtil/CullVisitor>
 #include <osgUtil/Optimizer>
-#include <osgUtil/StateGraph>
-
-#include <algorithm>
-#include <cstdint>
-#include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -3,28 +3,10 @@
 //
 // Oracle: scene graphs whose tiles are known because they were put there.
 
-#include "DatabaseFixture.h"
+#include "KitTest.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/TileFinder.h>
-
-#include <gtest/gtest.h>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/NodeCallback>
-#include <osg/PagedLOD>
-#include <osgTerrain/Terrain>
-#include <osgTerrain/TerrainTile>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::test {
 namespace {
-
-using test::makePaged;
 
 osg::ref_ptr<osg::MatrixTransform> makeMesh(double x = 0.0) {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(x, 0, 0));
@@ -142,4 +124,4 @@ TEST(TileFinder, PathsOfPagedFilesAreRelativeToTheRoot) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::test

@@ -5,13 +5,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <osg/CoordinateSystemNode>
-
-#include <algorithm>
-#include <limits>
-#include <vector>
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test::surfaces {
 

@@ -4,20 +4,8 @@
 // Oracle: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, taken back to latitude,
 // longitude and altitude.
 
-#include "TileFixture.h"
+#include "KitTest.h"
 #include "TileSurfaceCases.h"
-
-#include <osgAnalyticBin/TileSurface.h>
-
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osgTerrain/Layer>
-#include <osgTerrain/TerrainTile>
-#include <osgTerrain/ValidDataOperator>
-
-#include <algorithm>
-#include <limits>
-#include <support/Random.h>
 
 namespace osgAnalyticBin::test::surfaces {
 namespace {

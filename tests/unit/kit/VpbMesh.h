@@ -3,15 +3,8 @@
 
 #pragma once
 
-#include "TileFixture.h"
+#include "KitTest.h"
 #include "TileSurfaceCases.h"
-
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-
-#include <support/GridMesh.h>
-#include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test::surfaces {
 
