@@ -9,49 +9,41 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-const core::Ellipsoid kEarth(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
-
 CullOptions onEarth(CullOptions options = {}) {
-    options.globe = kEarth;
+    options.globe = earth();
     return options;
 }
 
 // The tiles of a MeshGlobe below a plain group.
 struct GlobeWithoutSystem : MeshGlobe {
     GlobeWithoutSystem() {
-        scene = new osg::Group;
-        for (const auto& tile : tiles) scene->addChild(tile);
+        scene = makeGroup({tiles.begin(), tiles.end()});
         root->removeChildren(0, root->getNumChildren());
     }
 };
 
 // Leaves of 45 degrees, each in a group, that are not attached yet.
-struct AddedGlobe {
+struct AddedGlobe : MeshGlobe {
     AddedGlobe() {
-        for (int i = 0; i < 32; ++i) {
-            const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
-            tiles.push_back(new osg::Group);
-            tiles.back()->addChild(makeMeshTile(extentsDeg(south, south + 45, west, west + 45), 0.0));
+        scene = new osg::Group;
+        root->removeChildren(0, root->getNumChildren());
+        for (const auto& tile : std::exchange(tiles, {})) {
+            leaves.push_back(makeGroup({tile->getChild(0)}));
+            tile->removeChildren(0, 1);
         }
     }
 
     void addAll() {
-        for (const auto& tile : tiles) {
-            EXPECT_EQ(addTile(*scene, *tile), 1u);
-            scene->addChild(tile);
+        for (const auto& leaf : leaves) {
+            EXPECT_EQ(addTile(*scene, *leaf), 1u);
+            scene->addChild(leaf);
         }
         update(*scene);
     }
-    [[nodiscard]] bool draws(osg::Node& tile, const CullView& view) {
-        return cull(*scene, view, *visitor, ++frame).drawn.count(drawableOf(tile)) > 0;
-    }
     // The tile on the other side of the globe, from above the middle of tile 19, which looks down.
-    [[nodiscard]] bool drawsAntipode() { return draws(*tiles[15], MeshGlobe::fromAbove()); }
+    [[nodiscard]] bool drawsAntipode() { return draws(*leaves[15], fromAbove()); }
 
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
-    std::vector<osg::ref_ptr<osg::Group>> tiles;
-    osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    unsigned int frame = 0;
+    std::vector<osg::ref_ptr<osg::Group>> leaves;
 };
 
 TEST(NamedGlobe, StandsForACoordinateSystemAndOutlivesOtherMethods) {
@@ -60,9 +52,7 @@ TEST(NamedGlobe, StandsForACoordinateSystemAndOutlivesOtherMethods) {
     ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     EXPECT_FALSE(plain.drawsAntipode()) << "no horizon";
     EXPECT_TRUE(plain.draws(*plain.tiles[19], MeshGlobe::fromAbove()));
-    CullOptions spheres = onEarth();
-    spheres.method = Method::Sphere;
-    EXPECT_EQ(setCullOptions(*plain.scene, spheres), 0u);
+    EXPECT_EQ(setCullOptions(*plain.scene, onEarth(by(Method::Sphere))), 0u);
     EXPECT_TRUE(plain.drawsAntipode());
     EXPECT_EQ(setCullOptions(*plain.scene, onEarth()), 32u);
     EXPECT_FALSE(plain.drawsAntipode());
@@ -76,7 +66,7 @@ TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {
     (void)installBins(*globe.scene, onEarth());
     globe.addAll();
     EXPECT_TRUE(globe.drawsAntipode()) << "nobody knows what lies between the tiles";
-    EXPECT_FALSE(globe.draws(*globe.tiles[19], beside(ecefDeg(22.5, -22.5, 1e5))));
+    EXPECT_FALSE(globe.draws(*globe.leaves[19], beside(ecefDeg(22.5, -22.5, 1e5))));
 }
 
 TEST(AddedTiles, ComeInSeveralThreads) {
@@ -85,26 +75,26 @@ TEST(AddedTiles, ComeInSeveralThreads) {
     std::vector<std::thread> threads;
     for (std::size_t first = 0; first < 4; ++first) {
         threads.emplace_back([&globe, first] {
-            for (std::size_t i = first; i < 32; i += 4) EXPECT_EQ(addTile(*globe.scene, *globe.tiles[i]), 1u);
+            for (std::size_t i = first; i < 32; i += 4) EXPECT_EQ(addTile(*globe.scene, *globe.leaves[i]), 1u);
         });
     }
     for (int i = 0; i < 50; ++i) (void)globe.drawsAntipode();
     for (std::thread& thread : threads) thread.join();
-    for (const auto& tile : globe.tiles) globe.scene->addChild(tile);
+    for (const auto& tile : globe.leaves) globe.scene->addChild(tile);
     update(*globe.scene);
     EXPECT_EQ(findTiles(*globe.scene).size(), 0u) << "they are no tiles without an ellipsoid";
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_TRUE(globe.draws(*globe.leaves[19], MeshGlobe::fromAbove()));
 }
 
 TEST(AddedTiles, FollowOtherOptionsAlsoOnTheirWay) {
     AddedGlobe globe;
     const CullOptions options = onEarth(declaredHorizon());
     (void)installBins(*globe.scene, options);
-    for (const auto& tile : globe.tiles) EXPECT_EQ(addTile(*globe.scene, *tile), 1u);
+    for (const auto& tile : globe.leaves) EXPECT_EQ(addTile(*globe.scene, *tile), 1u);
     CullOptions spheres = options;
     spheres.method = Method::Sphere;
     (void)setCullOptions(*globe.scene, spheres);
-    for (const auto& tile : globe.tiles) globe.scene->addChild(tile);
+    for (const auto& tile : globe.leaves) globe.scene->addChild(tile);
     (void)globe.drawsAntipode();
     update(*globe.scene);
     EXPECT_TRUE(globe.drawsAntipode());
@@ -117,17 +107,17 @@ TEST(AddedTiles, LeaveNothingBehindWhenTheyAreRemoved) {
     globe.addAll();
     (void)globe.drawsAntipode();
     update(*globe.scene);
-    removeTile(*globe.scene, *globe.tiles[3]);
-    EXPECT_EQ(globe.tiles[3]->getCullCallback(), nullptr);
-    EXPECT_EQ(globe.tiles[3]->getComputeBoundingSphereCallback(), nullptr);
-    EXPECT_EQ(globe.tiles[3]->getChild(0)->getCullCallback(), nullptr);
-    globe.scene->removeChild(globe.tiles[3]);
+    removeTile(*globe.scene, *globe.leaves[3]);
+    EXPECT_EQ(globe.leaves[3]->getCullCallback(), nullptr);
+    EXPECT_EQ(globe.leaves[3]->getComputeBoundingSphereCallback(), nullptr);
+    EXPECT_EQ(globe.leaves[3]->getChild(0)->getCullCallback(), nullptr);
+    globe.scene->removeChild(globe.leaves[3]);
     // siblings have other numbers for a frame
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_TRUE(globe.draws(*globe.leaves[19], MeshGlobe::fromAbove()));
     update(*globe.scene);
     EXPECT_FALSE(globe.drawsAntipode());
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-    ASSERT_EQ(addTile(*globe.scene, *globe.tiles[3]), 1u) << "again";
+    EXPECT_TRUE(globe.draws(*globe.leaves[19], MeshGlobe::fromAbove()));
+    ASSERT_EQ(addTile(*globe.scene, *globe.leaves[3]), 1u) << "again";
 }
 
 TEST(AddedTiles, StandInTheFrameOfTheirParent) {
@@ -137,22 +127,22 @@ TEST(AddedTiles, StandInTheFrameOfTheirParent) {
     const osg::Matrixd half = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 0, 1));
     const osg::ref_ptr<osg::MatrixTransform> parent = new osg::MatrixTransform(half);
     globe.scene->addChild(parent);
-    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[15], half), 1u);
-    parent->addChild(globe.tiles[15]);
+    EXPECT_EQ(addTile(*globe.scene, *globe.leaves[15], half), 1u);
+    parent->addChild(globe.leaves[15]);
     update(*globe.scene);
-    EXPECT_FALSE(globe.drawsAntipode() != globe.draws(*globe.tiles[15], MeshGlobe::fromAbove()));
+    EXPECT_FALSE(globe.drawsAntipode() != globe.draws(*globe.leaves[15], MeshGlobe::fromAbove()));
     // tile 15 is south of the equator, east of 135 degrees: turned, east of 45 degrees west
-    EXPECT_TRUE(globe.draws(*globe.tiles[15], downTo(-22.5, -22.5)));
-    EXPECT_FALSE(globe.draws(*globe.tiles[15], downTo(-22.5, 157.5)));
+    EXPECT_TRUE(globe.draws(*globe.leaves[15], downTo(-22.5, -22.5)));
+    EXPECT_FALSE(globe.draws(*globe.leaves[15], downTo(-22.5, 157.5)));
 }
 
 TEST(AddedTiles, AreRefusedWhereThereIsNoDatabase) {
     AddedGlobe globe;
-    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[0]), 0u);
+    EXPECT_EQ(addTile(*globe.scene, *globe.leaves[0]), 0u);
     (void)installBins(*globe.scene, onEarth());
-    globe.scene->addChild(globe.tiles[0]);
-    EXPECT_EQ(addTile(*globe.scene, *globe.tiles[0]), 0u) << "a cull traversal may be in it";
-    EXPECT_EQ(globe.tiles[0]->getChild(0)->getCullCallback(), nullptr);
+    globe.scene->addChild(globe.leaves[0]);
+    EXPECT_EQ(addTile(*globe.scene, *globe.leaves[0]), 0u) << "a cull traversal may be in it";
+    EXPECT_EQ(globe.leaves[0]->getChild(0)->getCullCallback(), nullptr);
 }
 
 // What SimGear makes of a file: a transform with a group of that name, and objects.
@@ -176,9 +166,7 @@ struct NamedGround {
 TEST(NamedGround, AloneHasABin) {
     NamedGround named;
     AddedGlobe globe;
-    CullOptions options = onEarth();
-    options.ground = "BTGTerrainGroup";
-    (void)installBins(*globe.scene, options);
+    (void)installBins(*globe.scene, onEarth(optionsOf("ground=BTGTerrainGroup")));
     ASSERT_EQ(addTile(*globe.scene, *named.content), 1u);
     ASSERT_TRUE(installedOn(*named.ground));
     globe.scene->addChild(named.content);
@@ -192,16 +180,11 @@ TEST(NamedGround, AloneHasABin) {
 
 TEST(NamedGround, IsFoundInDatabases) {
     NamedGround named;
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    root->addChild(named.content);
+    const auto root = makeGlobe({named.content});
     EXPECT_EQ(installBins(*root), 0u);
-    CullOptions options;
-    options.ground = "BTGTerrainGroup";
-    EXPECT_EQ(installBins(*root, options), 1u);
+    EXPECT_EQ(installBins(*root, optionsOf("ground=BTGTerrainGroup")), 1u);
     EXPECT_TRUE(installedOn(*named.ground));
-    options.ground = "Ground";
-    EXPECT_EQ(installBins(*root, options), 0u);
+    EXPECT_EQ(installBins(*root, optionsOf("ground=Ground")), 0u);
     EXPECT_FALSE(installedOn(*named.ground));
 }
 

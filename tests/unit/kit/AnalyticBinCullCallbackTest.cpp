@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The callback in a real osgUtil::CullVisitor without a window, and what is counted there. Oracles: the set of tiles
-// that the traversal reaches; relations (a moved globe, a local frame). That no tile is culled that is seen:
-// ProjectionTest.cpp. The verdict against a single plane is tested in core/.
+// The callback in a real osgUtil::CullVisitor without a window, what is counted there, and what becomes of an
+// osg::ClusterCullingCallback meanwhile. Oracles: the set of tiles that the traversal reaches; relations (a moved
+// globe, a local frame). That no tile is culled that is seen: ProjectionTest.cpp. The verdict against a single plane:
+// core/.
 
 #include "KitTest.h"
 
 #include <osg/UserDataContainer>
+
+#include <typeinfo>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -21,7 +24,7 @@ CullView randomGlobeView(Random& random) {
 }
 
 // Looks at the middle of the globe.
-CullView lookDown(double altitude, double fovDeg = 40.0) {
+CullView atMiddle(double altitude, double fovDeg = 40.0) {
     return CullView::lookAt({kEarthRadius + altitude, 0, 0}, {0, 0, 0}, {0, 0, 1}, fovDeg);
 }
 
@@ -69,18 +72,15 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     const CullView away = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
-    CullOptions none;
-    none.method = Method::None;
     const AnalyticBin bin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
     root->addChild(makeTile("culled", bin, visited));
     root->addChild(makeTile("invalid bin", AnalyticBin(), visited));
-    root->addChild(makeTile("no culling", bin, visited, none));
+    root->addChild(makeTile("no culling", bin, visited, by(Method::None)));
     osg::ref_ptr<osg::Group> singular = makeTile("singular frame", bin, visited);
     dynamic_cast<AnalyticBinCullCallback&>(*singular->getCullCallback()).setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
     root->addChild(singular);
     root->addChild(makeTile("no radius", bin, visited, {}, osg::EllipsoidModel(std::nan(""), 6.4e6)));
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    cull(*root, away, *visitor);
+    (void)cull(*root, away);
     EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
 }
 
@@ -94,7 +94,7 @@ TEST(HorizonCulling, IsUsedWhereItIsAskedForAndHidesNothingThatIsDrawnInFrontOfA
     scene->addChild(globe.root);
     globe.reached(*scene, view);
     EXPECT_GT(globe.counts.hidden, 0u);
-    scene->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    ignoreDepth(*scene);
     globe.reached(*scene, view);
     EXPECT_EQ(globe.counts.hidden, 0u);
 }
@@ -111,18 +111,12 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     };
     EXPECT_EQ(installed({}).horizonUse, HorizonUse::Given);
     EXPECT_EQ(installed({}).horizon, -kOccluderDepth);
-    CullOptions off;
-    off.horizonUse = HorizonUse::Off;
-    EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
-    CullOptions other = horizonOptions();
-    other.horizon = -9.0;
-    EXPECT_EQ(installed(other).horizon, -9.0);
+    EXPECT_EQ(installed(optionsOf("horizon=off")).horizonUse, HorizonUse::Off);
+    EXPECT_EQ(installed(optionsOf("horizon=-9")).horizon, -9.0);
 }
 
 TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
-    CullOptions off;
-    off.edges = false;
-    CountedGlobe with, without(off);
+    CountedGlobe with, without(optionsOf("edges=off"));
     Random random(32);
     unsigned int separated = 0;
     for (int i = 0; i < 200; ++i) {
@@ -166,7 +160,7 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
     for (unsigned int frame = 1; frame <= 3; ++frame) {
-        cull(*globe.root, lookDown(1e6), *visitor, frame);
+        cull(*globe.root, atMiddle(1e6), *visitor, frame);
         ASSERT_NE(BinStatistics::find(*visitor), nullptr);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().frame, frame);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 128u);
@@ -176,11 +170,11 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    cull(*globe.root, lookDown(1e6), *a);
+    cull(*globe.root, atMiddle(1e6), *a);
     const BinCounts before = BinStatistics::find(*a)->getCounts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
-    cull(*globe.root, lookDown(1e7), *b);
+    cull(*globe.root, atMiddle(1e7), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
     // they may cull in two threads: nothing is put into what OSG has them share
@@ -221,12 +215,109 @@ TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
         };
         expectItToDecide("at first ");
         for (const Method method : {Method::Quadratic, Method::Exact, Method::Quadratic}) {
-            CullOptions options;
-            options.method = method;
-            installBins(*globe.root, options);
+            installBins(*globe.root, by(method));
             update(*globe.root);
             expectItToDecide("later ");
         }
+    }
+}
+
+// A tile whose PagedLOD and drawable have callbacks that cull whatever the eye, between callbacks of the user.
+struct ClusterTile {
+    ClusterTile() {
+        mesh = makeMeshTile(extentsDeg(0, 20, 0, 20), 0.0);
+        drawable = mesh->getChild(0)->asGeode()->getDrawable(0);
+        paged = makePaged(mesh, "none.osgb", 1.0f);
+        first->setNestedCallback(makeCluster());
+        first->getNestedCallback()->setNestedCallback(new VisitRecorder("last", names));
+        paged->setCullCallback(first);
+        drawable->setCullCallback(makeCluster());
+        root->addChild(paged);
+    }
+
+    static osg::ClusterCullingCallback* makeCluster() {
+        auto* cluster = new osg::ClusterCullingCallback(osg::Vec3(), osg::Vec3(-1, 0, 0), 0.9f);
+        cluster->setRadius(5.0f);
+        return cluster;
+    }
+
+    // What a cull traversal reaches: "first", "last", "drawn".
+    std::set<std::string> reached() {
+        names.clear();
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        CullView view = CullView::lookAt(ecefDeg(10, 10, 5e6), {0, 0, 0}, {0, 0, 1}, 60.0);
+        view.cullingMode |= osg::CullSettings::CLUSTER_CULLING;
+        const CullResult result = cull(*root, view, *visitor);
+        if (result.drawn.count(drawable)) names.insert("drawn");
+        EXPECT_TRUE(visitor->getCullingMode() & osg::CullSettings::CLUSTER_CULLING);
+        return names;
+    }
+
+    std::set<std::string> names;
+    const osg::ref_ptr<VisitRecorder> first = new VisitRecorder("first", names);
+    osg::ref_ptr<osg::MatrixTransform> mesh;
+    osg::ref_ptr<osg::Drawable> drawable;
+    osg::ref_ptr<osg::PagedLOD> paged;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+};
+
+const std::set<std::string> kAll{"first", "last", "drawn"};
+const std::set<std::string> kClusterCulled{"first"};
+
+TEST(ClusterCulling, RestsWhileBinsAreInstalled) {
+    ClusterTile tile;
+    ASSERT_EQ(tile.reached(), kClusterCulled);
+    const osg::ref_ptr<osg::Callback> cluster = tile.first->getNestedCallback();
+    for (int i = 0; i < 2; ++i) {
+        installBins(*tile.root);
+        EXPECT_EQ(tile.reached(), kAll);
+        EXPECT_EQ(tile.first->getNestedCallback(), cluster);
+    }
+    installBins(*tile.root, by(Method::None));
+    EXPECT_EQ(tile.reached(), kAll);
+    installBins(*tile.root, by(Method::Sphere));
+    EXPECT_EQ(tile.reached(), kClusterCulled);
+    EXPECT_EQ(tile.paged->getCullCallback(), tile.first);
+}
+
+TEST(ClusterCulling, RestsInTheMeshOfALeaf) {
+    ClusterTile tile;
+    const auto leaf = makeGroup({tile.mesh});
+    setStoredBin(*leaf, AnalyticBin(extentsDeg(0, 20, 0, 20).withAltitude({-100000.0, 100.0})));
+    tile.root->replaceChild(tile.paged, leaf);
+    ASSERT_EQ(tile.reached().count("drawn"), 0u);
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(installBins(*tile.root), 1u);
+        EXPECT_EQ(tile.reached().count("drawn"), 1u);
+    }
+    removeBins(*tile.root);
+    EXPECT_EQ(tile.reached().count("drawn"), 0u);
+}
+
+TEST(ClusterCulling, StaysWhereItIsToBeKept) {
+    ClusterTile tile;
+    installBins(*tile.root, optionsOf("cluster=keep"));
+    EXPECT_EQ(tile.reached(), kClusterCulled);
+    EXPECT_EQ(typeid(*tile.first->getNestedCallback()), typeid(osg::ClusterCullingCallback));
+}
+
+TEST(ClusterCulling, IsSavedAsWhatItWas) {
+    const TemporaryFolder folder;
+    ClusterTile tile;
+    installBins(*tile.root);
+    ASSERT_EQ(tile.reached(), kAll);
+    for (const char* name : {"/tile.osgb", "/tile.osgt"}) {
+        ASSERT_TRUE(osgDB::writeNodeFile(*tile.mesh, folder.path() + name));
+        const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(folder.path() + name);
+        ASSERT_TRUE(read);
+        osg::Drawable& drawable = *read->asGroup()->getChild(0)->asGeode()->getDrawable(0);
+        ASSERT_NE(drawable.getCullCallback(), nullptr);
+        const osg::Callback& callback = *drawable.getCullCallback();
+        ASSERT_EQ(typeid(callback), typeid(osg::ClusterCullingCallback));
+        const auto& cluster = dynamic_cast<const osg::ClusterCullingCallback&>(callback);
+        EXPECT_EQ(cluster.getNormal(), osg::Vec3(-1, 0, 0));
+        EXPECT_EQ(cluster.getDeviation(), 0.9f);
+        EXPECT_EQ(cluster.getRadius(), 5.0f);
     }
 }
 

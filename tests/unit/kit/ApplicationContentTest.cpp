@@ -21,10 +21,7 @@ TEST(AddedContent, IsATileThatIsATransformAndMoves) {
     EXPECT_TRUE(globe.draws(*tile, downTo(15, 15)));
     EXPECT_FALSE(globe.draws(*tile, downTo(15, 135)));
     tile->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1)));
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.draws(*tile, downTo(15, 135))) << i;
-        update(*globe.root);
-    }
+    globe.expectDrawn(*tile, downTo(15, 135));
 }
 
 // 20 km above the middle of a tile, in the frame of its mesh.
@@ -38,43 +35,42 @@ struct AboveTheMesh {
     osg::Vec3d place, local;
 };
 
-// Draws without drawables, as osgSim::LightPointNode does.
-struct Lights : osg::Node {
-    explicit Lights(const osg::Vec3d& at) : place(at) {}
-    osg::BoundingSphere computeBound() const override { return {place, 50.0f}; }
-    void traverse(osg::NodeVisitor& nv) override { isDrawn = isDrawn || nv.asCullVisitor(); }
-    const osg::Vec3 place;
-    bool isDrawn = false;
-};
-
-TEST(ContentOfMeshes, IsDrawnByANodeOfAnyClass) {
-    MeshGlobe globe;
-    const AboveTheMesh above(globe);
-    const osg::ref_ptr<Lights> lights = new Lights(above.local);
-    above.mesh.addChild(lights);
-    installBins(*globe.root);
-    ASSERT_NE(installedOn(*globe.tiles[19]), nullptr);
-    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 20000.0)));
-    EXPECT_FALSE(lights->isDrawn);
-    (void)globe.draws(*globe.root, beside(above.place));
-    EXPECT_TRUE(lights->isDrawn);
-}
-
-// Draws beside its children, as osgVolume::VolumeTile does.
-struct Balloon : osg::Group {
-    explicit Balloon(const osg::Vec3d& at) : place(at) {}
+// Draws beside its children, if it may have any: as osgSim::LightPointNode and osgVolume::VolumeTile do.
+template <class Base>
+struct Drawing : Base {
+    explicit Drawing(const osg::Vec3d& at) : place(at) {}
     osg::BoundingSphere computeBound() const override {
-        osg::BoundingSphere bound = osg::Group::computeBound();
+        osg::BoundingSphere bound = Base::computeBound();
         bound.expandBy(osg::BoundingSphere(place, 50.0f));
         return bound;
     }
     void traverse(osg::NodeVisitor& nv) override {
         isDrawn = isDrawn || nv.asCullVisitor();
-        osg::Group::traverse(nv);
+        Base::traverse(nv);
     }
     const osg::Vec3 place;
     bool isDrawn = false;
 };
+using Balloon = Drawing<osg::Group>;
+
+// It stands above the middle of tile 19.
+template <class Content>
+void expectDrawnWhereItIs(MeshGlobe& globe, const Content& content, double altitude) {
+    installBins(*globe.root);
+    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, altitude)));
+    EXPECT_FALSE(content.isDrawn);
+    (void)globe.draws(*globe.root, beside(ecefDeg(22.5, -22.5, altitude)));
+    EXPECT_TRUE(content.isDrawn);
+}
+
+TEST(ContentOfMeshes, IsDrawnByANodeOfAnyClass) {
+    MeshGlobe globe;
+    const AboveTheMesh above(globe);
+    const osg::ref_ptr<Drawing<osg::Node>> lights = new Drawing<osg::Node>(above.local);
+    above.mesh.addChild(lights);
+    expectDrawnWhereItIs(globe, *lights, 20000.0);
+    EXPECT_NE(installedOn(*globe.tiles[19]), nullptr);
+}
 
 TEST(ContentOfMeshes, IsDrawnByAGroupOfAnyClass) {
     for (const bool hasChild : {false, true}) {
@@ -83,27 +79,18 @@ TEST(ContentOfMeshes, IsDrawnByAGroupOfAnyClass) {
         const osg::ref_ptr<Balloon> balloon = new Balloon(above.local);
         if (hasChild) balloon->addChild(makeTower({}));
         above.mesh.addChild(balloon);
-        installBins(*globe.root);
-        (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 20000.0)));
-        EXPECT_FALSE(balloon->isDrawn);
-        (void)globe.draws(*globe.root, beside(above.place));
-        EXPECT_TRUE(balloon->isDrawn) << hasChild;
+        expectDrawnWhereItIs(globe, *balloon, 20000.0);
     }
 }
 
 TEST(ContentOfFiles, IsDrawnByAGroupOfAnyClass) {
     MeshGlobe globe;
     // beside the sphere of what is below
-    const osg::Vec3d place = ecefDeg(22.5, -22.5, 8e6);
-    const osg::ref_ptr<Balloon> balloon = new Balloon(place);
+    const osg::ref_ptr<Balloon> balloon = new Balloon(ecefDeg(22.5, -22.5, 8e6));
     balloon->addChild(makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), "none.osgb"));
     globe.tiles[19]->setRange(1, 0.0f, 1e10f);
     putBelow(*globe.tiles[19], balloon);
-    installBins(*globe.root);
-    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 8e6)));
-    EXPECT_FALSE(balloon->isDrawn);
-    (void)globe.draws(*globe.root, beside(place));
-    EXPECT_TRUE(balloon->isDrawn);
+    expectDrawnWhereItIs(globe, *balloon, 8e6);
 }
 
 // Nothing asks for the bounds of what it does not show.
@@ -113,10 +100,8 @@ TEST(ContentOfMeshes, IsNoticedBelowALevelThatIsNotShown) {
     const osg::ref_ptr<osg::LOD> level = new osg::LOD;
     level->setCenter(above.local);
     level->setRadius(3e6f);
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
     const osg::ref_ptr<osg::Geometry> tower = drawableOf(*makeTower({}))->asGeometry();
-    group->addChild(tower);
-    level->addChild(group, 0.0f, 20000.0f);
+    level->addChild(makeGroup({tower}), 0.0f, 20000.0f);
     above.mesh.addChild(level);
     installBins(*globe.root);
     EXPECT_FALSE(globe.draws(*tower, MeshGlobe::fromAbove()));
@@ -124,10 +109,7 @@ TEST(ContentOfMeshes, IsNoticedBelowALevelThatIsNotShown) {
     for (osg::Vec3& vertex : vertices) vertex += osg::Vec3(above.local);
     vertices.dirty();
     tower->dirtyBound();
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(globe.draws(*tower, beside(above.place))) << i;
-        update(*globe.root);
-    }
+    globe.expectDrawn(*tower, beside(above.place), true, 2);
 }
 
 // Lies for all visitors but those that draw, for which it stands upright.
@@ -167,10 +149,7 @@ TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
     EXPECT_FALSE(globe.draws(*billboard, beside(above.place)));
     billboard->setPosition(0, above.local);
     billboard->dirtyBound();
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(globe.draws(*billboard, beside(above.place))) << i;
-        update(*globe.root);
-    }
+    globe.expectDrawn(*billboard, beside(above.place), true, 2);
 }
 
 // A file of one transform with ground, a house, a tower in the air, and a mill that an application moves.
@@ -188,9 +167,7 @@ TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove)
     osg::MatrixTransform& mill = *things[2];
     mill.setDataVariance(osg::Object::DYNAMIC);
     pageOut(*globe.tile);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    file->addChild(content);
-    putBelow(*globe.tile, file);
+    putBelow(*globe.tile, makeGroup({content}));
     installBins(*globe.root);
     update(*globe.root);
     EXPECT_NE(installedOn(*content->getChild(0)), nullptr) << "the ground";
@@ -203,10 +180,7 @@ TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove)
     EXPECT_FALSE(globe.draws(*things[0], downTo(12, 5, 3000.0, 5.0)));
     EXPECT_TRUE(globe.draws(mill, downTo(25, 30, 3000.0, 5.0)));
     mill.setMatrix(osg::Matrixd::translate(ecefDeg(25, 33, 40000.0)) * toLocal);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(globe.draws(mill, beside(ecefDeg(25, 33, 40000.0)))) << i;
-        update(*globe.root);
-    }
+    globe.expectDrawn(mill, beside(ecefDeg(25, 33, 40000.0)), true, 2);
 }
 
 TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
@@ -239,51 +213,40 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
 // What OSG does not cull below a tile keeps the tile and those above it, too: a light shines on everything beside it.
 class NeverCulled : public testing::TestWithParam<bool> {
 protected:
-    // Away from the tile.
-    static CullView beyond() { return downTo(20, 100.0); }
-    [[nodiscard]] static bool shines(FiledGlobe& globe, const osg::Light& light) {
-        (void)globe.draws(*globe.tile, beyond());
-        const auto& lights = globe.visitor->getRenderStage()->getPositionalStateContainer()->getAttrMatrixList();
-        return std::any_of(lights.begin(), lights.end(), [&](const auto& at) { return at.first == &light; });
-    }
     // Adds it beside the ground of the leaf, or beside the leaf.
     static void add(FiledGlobe& globe, osg::Node& content) {
         osg::Group* const leaf = globe.group->getChild(0)->asGroup();
         (GetParam() ? leaf->getChild(0)->asGroup() : globe.group.get())->addChild(&content);
+    }
+    // From the next view on.
+    static void expectOnceAdded(FiledGlobe& globe, osg::Node& content, const std::function<bool()>& shows) {
+        EXPECT_FALSE(shows());
+        add(globe, content);
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_TRUE(shows()) << i;
+            update(*globe.root);
+        }
+        installBins(*globe.root);
+        EXPECT_TRUE(shows());
     }
 };
 
 TEST_P(NeverCulled, IsALightSource) {
     FiledGlobe globe;
     const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    EXPECT_FALSE(shines(globe, *source->getLight()));
-    add(globe, *source);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(shines(globe, *source->getLight())) << i;
-        update(*globe.root);
-    }
-    installBins(*globe.root);
-    EXPECT_TRUE(shines(globe, *source->getLight()));
+    expectOnceAdded(globe, *source, [&] { return globe.shines(*source->getLight(), downTo(20, 100.0)); });
 }
 
 // It draws a picture of its own, into a texture for instance, whether the tile is in view or not.
 TEST_P(NeverCulled, IsACamera) {
     FiledGlobe globe;
-    const auto draws = [&] {
-        (void)globe.draws(*globe.tile, beside(ecefDeg(20, 20, 30000.0)));
-        return !globe.visitor->getRenderStage()->getPreRenderList().empty();
-    };
-    EXPECT_FALSE(draws());
     const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setRenderOrder(osg::Camera::PRE_RENDER);
     camera->addChild(makeTower(ecefDeg(20, 20, 200.0)));
-    add(globe, *camera);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(draws()) << i;
-        update(*globe.root);
-    }
-    installBins(*globe.root);
-    EXPECT_TRUE(draws());
+    expectOnceAdded(globe, *camera, [&] {
+        (void)globe.draws(*globe.tile, beside(ecefDeg(20, 20, 30000.0)));
+        return !globe.visitor->getRenderStage()->getPreRenderList().empty();
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
@@ -338,16 +301,11 @@ TEST(AddedContent, ThatTurnsInItsSphereIsDrawn) {
     const osg::ref_ptr<osg::MatrixTransform> mast = placed(geometry, lying);
     globe.tiles[19]->addChild(mast, 0.0f, 1e10f);
     const CullView above = beside(ecefDeg(1, -1, 25000.0));
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_FALSE(globe.draws(*mast, above));
-        update(*globe.root);
-    }
+    globe.expectDrawn(*mast, above, false, 2);
     const osg::BoundingSphere sphere = mast->getBound();
     mast->setMatrix(standing);
     ASSERT_EQ(mast->getBound(), sphere);
-    EXPECT_TRUE(globe.draws(*mast, above));
-    update(*globe.root);
-    EXPECT_TRUE(globe.draws(*mast, above));
+    globe.expectDrawn(*mast, above, true, 2);
 }
 
 }  // namespace

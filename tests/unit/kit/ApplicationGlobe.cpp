@@ -8,8 +8,11 @@
 #include <gtest/gtest.h>
 #include <osgDB/WriteFile>
 #include <osgTerrain/TerrainTile>
+#include <osgUtil/PositionalStateContainer>
+#include <osgUtil/RenderStage>
 #include <osgUtil/UpdateVisitor>
 
+#include <algorithm>
 #include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
@@ -29,9 +32,27 @@ osg::Drawable* drawableOf(osg::Node& node) {
     return group && group->getNumChildren() > 0 ? drawableOf(*group->getChild(0)) : nullptr;
 }
 
+osg::Geometry& geometryOf(osg::Node& node) {
+    return *drawableOf(node)->asGeometry();
+}
+
+osg::Vec3Array& verticesOf(osg::Node& node) {
+    return dynamic_cast<osg::Vec3Array&>(*geometryOf(node).getVertexArray());
+}
+
 void update(osg::Node& scene) {
     const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
     scene.accept(*visitor);
+}
+
+void ignoreDepth(osg::Node& node) {
+    node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+}
+
+void computeNear(CullView& view, osg::Node& scene) {
+    view.camera = new osg::Camera;
+    view.camera->addChild(&scene);
+    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
 }
 
 osg::ref_ptr<osg::MatrixTransform> makeTower(const osg::Vec3d& place, float size) {
@@ -75,13 +96,19 @@ bool MeshGlobe::draws(osg::Node& content, const CullView& view) {
     return cull(*scene, view, *visitor, ++frame).drawn.count(drawableOf(content)) > 0;
 }
 
+void MeshGlobe::expectDrawn(osg::Node& content, const CullView& view, bool isDrawn, int frames) {
+    for (int i = 0; i < frames; ++i) {
+        EXPECT_EQ(draws(content, view), isDrawn) << "frame " << i;
+        update(*scene);
+    }
+}
+
 CullView MeshGlobe::fromAbove(double altitude) {
     return CullView::lookAt(ecefDeg(22.5, -22.5, altitude), {0, 0, 0}, {0, 0, 1}, 100.0);
 }
 
 FiledGlobe::FiledGlobe() {
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    file->addChild(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0));
+    const auto file = makeGroup({makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0)});
     EXPECT_TRUE(osgDB::writeNodeFile(*file, folder / "group.osgb"));
     tile = makePaged(makeMeshTile(extentsDeg(10, 50, 0, 40), 200.0), "group.osgb", 1e9f);
     tile->setDatabasePath(std::string(folder / ""));
@@ -91,6 +118,12 @@ FiledGlobe::FiledGlobe() {
     group = readBelow(*tile)->asGroup();
     putBelow(*tile, group);
     update(*root);
+}
+
+bool FiledGlobe::shines(const osg::Light& light, const CullView& view) {
+    (void)draws(*tile, view);
+    const auto& lights = visitor->getRenderStage()->getPositionalStateContainer()->getAttrMatrixList();
+    return std::any_of(lights.begin(), lights.end(), [&](const auto& at) { return at.first == &light; });
 }
 
 }  // namespace osgAnalyticBin::test

@@ -48,9 +48,7 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesAMeshAway) {
         MeshGlobe globe;
         const osg::ref_ptr<osg::MatrixTransform> inside = new osg::MatrixTransform;
         inside->addChild(globe.tiles[19]->getChild(0));
-        const osg::ref_ptr<osg::Group> mesh = new osg::Group;
-        mesh->addChild(inside);
-        globe.tiles[19]->setChild(0, mesh);
+        globe.tiles[19]->setChild(0, makeGroup({inside}));
         installBins(*globe.root, options);
         EXPECT_FALSE(globe.drawsAntipode());
         inside->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
@@ -139,20 +137,8 @@ TEST(HoledGlobe, IsSeenThroughWhereAClassOfTheApplicationsPagesTiles) {
 
 // The eye is in the mesh of tile 19; all tiles have finer levels, which are due where `isDue` says so.
 struct AwaitedGround : MeshGlobe {
-    struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
-        void requestNodeFile(const std::string&, osg::NodePath& path, float, const osg::FrameStamp*,
-                             osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
-            nodes.insert(path.back());
-        }
-        std::set<const osg::Node*> nodes;
-    };
-
     explicit AwaitedGround(bool isGroundDue) : MeshGlobe(40000.0) {
-        for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const float range = i != 19 || isGroundDue ? 1e9F : 0.0F;
-            tiles[i]->setRange(0, range, 1e10F);
-            tiles[i]->setRange(1, 0.0F, range);
-        }
+        for (std::size_t i = 0; i < tiles.size(); ++i) setFinerWithin(*tiles[i], i != 19 || isGroundDue ? 1e9F : 0.0F);
         installBins(*root);
         visitor->setDatabaseRequestHandler(requests);
     }
@@ -190,80 +176,70 @@ TEST(StoredBins, OfDrawablesAreRefused) {
 }
 
 // Notes the planes that are undecided where it stands.
-struct MaskReader : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        const osg::Polytope& frustum = nv->asCullStack()->getCurrentCullingSet().getFrustum();
+struct MaskReader {
+    osg::ref_ptr<Before> callback = new Before([this](osgUtil::CullVisitor& visitor) {
+        const osg::Polytope& frustum = visitor.getCurrentCullingSet().getFrustum();
         mask = frustum.getCurrentMask();
         planes = frustum.getPlaneList().size();
-        traverse(node, nv);
-    }
+    });
     osg::Polytope::ClippingMask mask = 99;
     std::size_t planes = 99;
 };
 
+const CullView kFarAbove = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
+
 TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
+    const auto root = makeGlobe();
     // a model in view before the tiles: OSG leaves its decided planes behind
     root->addChild(makeTower(ecefDeg(0.5, 0.5, 1000.0)));
-    std::vector<osg::ref_ptr<MaskReader>> readers;
-    for (const auto& extents : {extentsDeg(0, 1, 0, 1), extentsDeg(0, 1, 20, 60)}) {
-        const osg::ref_ptr<osg::Group> tile = new osg::Group;
-        const osg::ref_ptr<osg::Group> child = new osg::Group;
-        readers.push_back(new MaskReader);
-        child->addChild(makeMeshTile(extents, 0.0));
-        tile->addChild(child);
+    MaskReader first, second, beside;
+    for (MaskReader* const reader : {&first, &second}) {
+        const auto extents = reader == &first ? extentsDeg(0, 1, 0, 1) : extentsDeg(0, 1, 20, 60);
+        const auto child = makeGroup({makeMeshTile(extents, 0.0)}), tile = makeGroup({child});
         // in the first tile, below a sphere; in the second, as the bin leaves it
-        (readers.size() == 1 ? child : tile)->setCullCallback(readers.back());
+        (reader == &first ? child : tile)->setCullCallback(reader->callback);
         setStoredBin(*tile, AnalyticBin(extents.withAltitude({-100, 100})));
         root->addChild(tile);
     }
     // and a model beside them that is not tested
     const osg::ref_ptr<osg::Group> model = new osg::Group;
-    const osg::ref_ptr<MaskReader> beside = new MaskReader;
     model->setCullingActive(false);
-    model->setCullCallback(beside);
+    model->setCullCallback(beside.callback);
     root->addChild(model);
     ASSERT_EQ(installBins(*root), 2u);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
     for (const bool isFamily : {true, false}) {
         // behind a callback behind their family, tiles test themselves
         if (!isFamily) root->addCullCallback(new osg::NodeCallback);
-        for (const auto& reader : {readers[0], readers[1], beside}) reader->mask = 99;
-        (void)cull(*root, view, *visitor);
-        EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
-        EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
-        EXPECT_LT(readers[1]->mask, 15u) << "of all";
-        EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
+        for (MaskReader* const reader : {&first, &second, &beside}) reader->mask = 99;
+        (void)cull(*root, kFarAbove);
+        EXPECT_EQ(first.mask, 0u) << "the first tile is inside all planes";
+        EXPECT_NE(second.mask, 0u) << "the second is not";
+        EXPECT_LT(second.mask, 15u) << "of all";
+        EXPECT_EQ(beside.mask, 15u) << "what tiles decided is theirs";
     }
 }
 
 // OSG begins below a transform with all planes that the camera has.
 TEST(DecidedPlanes, AreLeftOutBelowTheTransformsOfATileAlone) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
+    const auto root = makeGlobe();
     const osg::ref_ptr<osg::Group> tile = new osg::Group;
     setStoredBin(*tile, AnalyticBin(extentsDeg(0, 1, 0, 1).withAltitude({-100, 100})));
     root->addChild(tile);
-    std::vector<osg::ref_ptr<MaskReader>> readers;
-    for (const auto& parent : {tile, osg::ref_ptr<osg::Group>(root)}) {
-        const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
-        transform->setMatrix(osg::Matrixd::translate(10.0, 0.0, 0.0));
+    MaskReader below, beside;
+    for (MaskReader* const reader : {&below, &beside}) {
+        const osg::ref_ptr<osg::MatrixTransform> transform =
+            new osg::MatrixTransform(osg::Matrixd::translate(10.0, 0.0, 0.0));
         transform->addChild(makeTower(ecefDeg(0.5, 0.5, 0.0)));
-        readers.push_back(new MaskReader);
-        transform->setCullCallback(readers.back());
-        parent->addChild(transform);
+        transform->setCullCallback(reader->callback);
+        (reader == &below ? *tile : *root).addChild(transform);
     }
     ASSERT_EQ(installBins(*root), 1u);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
     for (const bool isFamily : {true, false}) {
         if (!isFamily) root->addCullCallback(new osg::NodeCallback);
-        for (const auto& reader : readers) reader->planes = 99;
-        (void)cull(*root, view, *visitor);
-        EXPECT_EQ(readers[0]->planes, 0u) << "the tile is inside all planes";
-        EXPECT_EQ(readers[1]->planes, 4u) << "what stands beside it is not";
+        below.planes = beside.planes = 99;
+        (void)cull(*root, kFarAbove);
+        EXPECT_EQ(below.planes, 0u) << "the tile is inside all planes";
+        EXPECT_EQ(beside.planes, 4u) << "what stands beside it is not";
     }
 }
 

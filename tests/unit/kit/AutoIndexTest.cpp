@@ -169,11 +169,9 @@ TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
 }
 
 TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
-    for (const IndexUse use : {IndexUse::Off, IndexUse::On}) {
-        CullOptions options;
-        options.index = use;
+    for (const char* const use : {"index=off", "index=on"}) {
         _scene = osgDB::readRefNodeFile(_file);
-        (void)installBins(*_scene, options, _file);
+        (void)installBins(*_scene, optionsOf(use), _file);
         EXPECT_FALSE(isIndexAwaited(*_scene));
     }
     _scene = osgDB::readRefNodeFile(_file);
@@ -181,18 +179,6 @@ TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     (void)installBins(*_scene, {}, _file);
     EXPECT_FALSE(isIndexAwaited(*_scene));
 }
-
-// Stands for the DatabasePager: notes which files are requested, and by which nodes.
-struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
-    void requestNodeFile(const std::string& file, osg::NodePath& path, float, const osg::FrameStamp*,
-                         osg::ref_ptr<osg::Referenced>& request, const osg::Referenced*) override {
-        files.insert(file);
-        nodes.insert(path.back());
-        if (!request) request = new osg::Referenced;
-    }
-    std::set<std::string> files;
-    std::set<const osg::Node*> nodes;
-};
 
 // Also in a viewer whose time stands still, and in one that draws a single frame.
 TEST(DeclaredBins, RequestAllFilesInTheFirstView) {

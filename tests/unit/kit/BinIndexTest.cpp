@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The file format by round trips and by damage of every kind. What osgbinconv puts into an index is tested in
+// The file format by round trips and by damage of every kind; an index beside a database: how it is used, and what
+// becomes of tiles that are no longer as it knows them. What osgbinconv puts into an index is tested in
 // tests/unit/applications/osgbinconv, reading by OSG's file names in tests/unit/plugin.
 
 #include "../../osgAnalyticBin/src/index/Checksum.h"
@@ -12,10 +13,9 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-AnalyticBin randomBin(Random& random) {
-    const double south = random.uniform(-1.5, 1.4);
-    const double west = random.uniform(-3.1, 3.1);
-    const double low = random.uniform(-9000.0, 3000.0);
+AnalyticBin randomEntry(Random& random) {
+    const double south = random.uniform(-1.5, 1.4), west = random.uniform(-3.1, 3.1),
+                 low = random.uniform(-9000.0, 3000.0);
     AnalyticBin bin(
         core::GeodeticBin({south, south + random.uniform(0.0, 0.1)}, {west, west + random.uniform(0.0, 0.2)},
                           {low, low + random.uniform(0.0, 5000.0)}),
@@ -30,9 +30,8 @@ osg::ref_ptr<BinIndex> randomIndex(int files) {
     index->setSource({"earth.ive", 123456789012ull, -5});
     for (int i = 0; i < files; ++i) {
         std::vector<BinIndex::Entry> tiles;
-        for (int n = random.integer(0, 4); n >= 0; --n) {
-            tiles.push_back({randomBin(random), random.uniform(-9000.0, 3000.0), random.bits()});
-        }
+        for (int n = random.integer(0, 4); n >= 0; --n)
+            tiles.push_back({randomEntry(random), random.uniform(-9000.0, 3000.0), random.bits()});
         tiles.push_back({});  // never culled
         index->setTiles(i == 0 ? "" : "earth_tiles/L" + std::to_string(i % 7) + "/tile_" + std::to_string(i) + ".ive",
                         tiles);
@@ -108,7 +107,7 @@ TEST(BinIndex, FindsTilesByFileAndOrdinal) {
 TEST(BinIndex, RoundsOutward) {
     Random random(4712);
     for (int i = 0; i < 2000; ++i) {
-        const AnalyticBin bin = randomBin(random);
+        const AnalyticBin bin = randomEntry(random);
         const double ownLow = random.uniform(-12000.0, 9000.0);
         const osg::ref_ptr<BinIndex> index = new BinIndex;
         index->setTiles("", {{bin, ownLow, 1}});
@@ -206,6 +205,158 @@ TEST(BinIndex, StandsBesideItsDatabase) {
     std::ofstream(binIndexName(database)) << "rubbish";
     EXPECT_FALSE(readBinIndex(database, nullptr, error));
     EXPECT_NE(error.find("another kind of file"), std::string::npos) << error;
+}
+
+const std::string kStaleWarning = "is not as the index knows it";
+
+class StaleIndex : public ::testing::Test {
+protected:
+    // Writes the database and its index; then, maybe, the database anew with other heights.
+    void write(double leafHeight, double singleHeight) {
+        _file = writeMeshDatabase(_folder.path(), 500.0, 500.0);
+        ASSERT_FALSE(_file.empty());
+        const osg::ref_ptr<BinIndex> index = new BinIndex;
+        AnalyticBin all;
+        for (const char* name : {"single.osgb", "children.osgb", ""}) {
+            std::vector<BinIndex::Entry> entries = entriesOf(name);
+            for (BinIndex::Entry& entry : entries) all.expandBy(entry.bin);
+            // a bin of everything holds all descendants
+            for (BinIndex::Entry& entry : entries) entry.bin = all;
+            index->setTiles(name, std::move(entries));
+        }
+        index->setSource({"root.osgb", std::filesystem::file_size(_file), 0});
+        std::string error;
+        ASSERT_TRUE(index->write(binIndexName(_file), error)) << error;
+        ASSERT_FALSE(writeMeshDatabase(_folder.path(), leafHeight, singleHeight).empty());
+    }
+
+    void load(const CullOptions& options = {}) {
+        _scene = osgDB::readRefNodeFile(_file);
+        ASSERT_TRUE(_scene);
+        _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
+        ASSERT_TRUE(_root);
+        EXPECT_EQ(installBins(*_scene, options, _file), 1u);
+    }
+
+    // Reads and merges what is below the root, as the pager does.
+    void page() {
+        const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+        ASSERT_TRUE(children);
+        putBelow(*_root, children);
+        _leaf = children->asGroup()->getChild(0);
+        _north = dynamic_cast<osg::PagedLOD*>(children->asGroup()->getChild(1));
+        ASSERT_TRUE(_north);
+    }
+
+    void pageSingle() {
+        _single = readBelow(*_north);
+        ASSERT_TRUE(_single);
+        putBelow(*_north, _single);
+    }
+
+    static double highOf(osg::Node& node) { return installedOn(node)->getBin().bin().altitude().upper; }
+
+    TemporaryFolder _folder;
+    std::string _file;
+    osg::ref_ptr<osg::Node> _scene, _leaf, _single;
+    osg::ref_ptr<osg::PagedLOD> _root, _north;
+
+private:
+    std::vector<BinIndex::Entry> entriesOf(const std::string& name) const {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_folder / (name.empty() ? "root.osgb" : name));
+        TileFrame frame;
+        frame.ellipsoid = new osg::EllipsoidModel;
+        frame.file = name;
+        frame.isBelowTile = !name.empty();
+        std::vector<BinIndex::Entry> entries;
+        for (const FoundTile& tile : findTiles(*node, frame)) {
+            osg::Node& mesh = *tile.meshes.front();
+            const TileSurface surface = tileSurface(mesh, *tile.frame.ellipsoid, osg::Matrixd());
+            entries.push_back(
+                {surface.bin, surface.bin.bin().altitude().lower, surfaceFingerprint(mesh, osg::Matrixd())});
+        }
+        return entries;
+    }
+};
+
+TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
+    write(500.0, 500.0);
+    const CapturedNotes notes;
+    load();
+    page();
+    pageSingle();
+    test::update(*_scene);
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(_root), _leaf.get(), static_cast<osg::Node*>(_north), _single.get()}) {
+        EXPECT_NEAR(highOf(*node), 500.0, 1.0);
+        EXPECT_GT(installedOn(*node)->getBin().bin().altitude().lower, -13000.0);
+    }
+    EXPECT_EQ(notes.count(kStaleWarning), 0u);
+}
+
+TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpdate) {
+    write(7000.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    page();
+    EXPECT_NEAR(highOf(*_leaf), 7000.0, 1.0);
+    EXPECT_EQ(notes.count(kStaleWarning), 1u);
+    // bins are not to change while another thread culls
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    test::update(*_scene);
+    EXPECT_NEAR(highOf(*_root), 7000.0, 1.0);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    // which is told once, and not fitted anew in every frame
+    const osg::ref_ptr<osg::Callback> fitted = installedOn(*_root);
+    test::update(*_scene);
+    test::update(*_scene);
+    EXPECT_EQ(installedOn(*_root), fitted.get());
+    pageSingle();
+    test::update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_EQ(notes.count(kStaleWarning), 1u);
+    for (osg::Node* ancestor : {_root.get(), _north.get()}) {
+        EXPECT_LE(installedOn(*ancestor)->getBin().bin().altitude().lower,
+                  installedOn(*_single)->getBin().bin().altitude().lower);
+    }
+}
+
+TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatWereFittedAnewMeanwhile) {
+    write(500.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    terrain->addChild(_root);
+    _scene = terrain;
+    installBins(*terrain, {}, _file);
+    page();
+    const osg::ref_ptr<osgDB::Options> options = dynamic_cast<osgDB::Options*>(_north->getDatabaseOptions());
+    terrain->setVerticalScale(2.0f);
+    test::update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    const std::string file = _north->getDatabasePath() + _north->getFileName(1);
+    ASSERT_TRUE(osgDB::readRefNodeFile(file, options));
+    test::update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_NEAR(highOf(*_root), 6000.0, 1.0);
+}
+
+// By other bins than those of the tiles above.
+TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatGotNewBinsMeanwhile) {
+    write(500.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    page();
+    _single = readBelow(*_north);
+    installBins(*_scene, {}, _file);
+    test::update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    putBelow(*_north, _single);
+    (void)_scene->getBound();
+    test::update(*_scene);
+    EXPECT_GE(highOf(*_north), 5999.0);
+    EXPECT_GE(highOf(*_root), 5999.0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // What the installer does to a scene graph. That the tiles it treats are culled rightly is tested in
 // AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
 
+#include "CountedReads.h"
 #include "KitTest.h"
 
 namespace osgAnalyticBin::test {
@@ -14,23 +15,12 @@ using core::GeodeticBin;
 // Deep enough for the chords of a triangle twelve degrees wide.
 const AnalyticBin kBin(GeodeticBin::fromDegrees({-22.5, 22.5}, {-22.5, 22.5}, {-60000, 5000}));
 
-AnalyticBinCullCallback* callbackOf(osg::Node& node) {
-    return dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback());
-}
-
 // A triangle somewhere near (lat 0, lon 0), in ECEF.
 osg::ref_ptr<osg::Geometry> makeTriangle() {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::EllipsoidModel wgs84;
-    for (const auto& [latitude, longitude] : {std::pair{0.1, 0.0}, std::pair{-0.1, -0.1}, std::pair{-0.1, 0.1}}) {
-        double x = 0, y = 0, z = 0;
-        wgs84.convertLatLongHeightToXYZ(latitude, longitude, 100.0, x, y, z);
-        vertices->push_back(osg::Vec3d(x, y, z));
-    }
-    geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
-    return geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const auto& [latitude, longitude] : {std::pair{0.1, 0.0}, {-0.1, -0.1}, {-0.1, 0.1}})
+        vertices->push_back(ecefDeg(osg::RadiansToDegrees(latitude), osg::RadiansToDegrees(longitude), 100.0));
+    return makeGeometry(vertices, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
 }
 
 struct Database {
@@ -53,8 +43,8 @@ struct Database {
 TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
     Database db;
     EXPECT_EQ(installBins(*db.above), 1u);
-    ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->getBin(), kBin);
+    ASSERT_NE(installedOn(*db.tile), nullptr);
+    EXPECT_EQ(installedOn(*db.tile)->getBin(), kBin);
     EXPECT_TRUE(db.tile->isCullingActive());
     EXPECT_TRUE(db.mesh->isCullingActive());
     EXPECT_TRUE(db.drawable->getCullingActive());
@@ -69,7 +59,7 @@ TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
     const double size = 3396190.0 / osg::WGS_84_RADIUS_EQUATOR;
     db.mesh->setMatrix(osg::Matrixd::scale(size, size, size));
     installBins(*db.root);
-    EXPECT_EQ(callbackOf(*db.tile)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(installedOn(*db.tile)->getRadiiText(), "3396190 3376200");
 }
 
 TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
@@ -78,7 +68,7 @@ TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
     db.root->setEllipsoidModel(new osg::EllipsoidModel(std::nan(""), 3376200.0));
     const CapturedNotes notes;
     EXPECT_EQ(installBins(*db.root), 0u);
-    EXPECT_EQ(callbackOf(*db.tile), nullptr);
+    EXPECT_EQ(installedOn(*db.tile), nullptr);
     EXPECT_TRUE(db.tile->getCullingActive());
     EXPECT_EQ(db.root->getUpdateCallback(), nullptr);
     EXPECT_EQ(notes.count("radii"), 1u);
@@ -95,18 +85,16 @@ TEST(BinInstaller, MethodNoneCullsNothingBelowItsNode) {
         parent.addChild(far);
     };
     const auto drawn = [&] {
-        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         const auto view = CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-        return cull(*db.above, view, *visitor).drawn.size();
+        return cull(*db.above, view).drawn.size();
     };
     moved(*db.root);
     moved(*db.above);
-    CullOptions none;
-    none.method = Method::None;
-    installBins(*db.root, none);
-    EXPECT_EQ(drawn(), 2u);
-    EXPECT_TRUE(db.above->isCullingActive());
-    installBins(*db.root, none);
+    for (int i = 0; i < 2; ++i) {
+        installBins(*db.root, by(Method::None));
+        EXPECT_EQ(drawn(), 2u);
+        EXPECT_TRUE(db.above->isCullingActive());
+    }
     removeBins(*db.root);
     EXPECT_EQ(drawn(), 1u);
     EXPECT_EQ(db.root->getCullCallback(), nullptr);
@@ -122,9 +110,9 @@ TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     const osg::ref_ptr<osg::MatrixTransform> globeMover = new osg::MatrixTransform(osg::Matrixd::translate(9, 9, 9));
     globeMover->addChild(db.root);
     EXPECT_EQ(installBins(*globeMover), 2u);
-    EXPECT_EQ(callbackOf(*tile)->getLocalToEcef(),
+    EXPECT_EQ(installedOn(*tile)->getLocalToEcef(),
               osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
-    EXPECT_TRUE(callbackOf(*db.tile)->getLocalToEcef().isIdentity());
+    EXPECT_TRUE(installedOn(*db.tile)->getLocalToEcef().isIdentity());
 }
 
 TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
@@ -134,7 +122,7 @@ TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
     setStoredBin(*tile, kBin);
     mover->addChild(tile);
     EXPECT_EQ(installBins(*mover), 1u);
-    EXPECT_TRUE(callbackOf(*tile)->getLocalToEcef().isIdentity());
+    EXPECT_TRUE(installedOn(*tile)->getLocalToEcef().isIdentity());
 }
 
 TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
@@ -147,33 +135,29 @@ TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
     mover->addChild(tile);
     tile->addChild(leaf);
     EXPECT_EQ(installBins(*mover), 2u);
-    EXPECT_EQ(callbackOf(*tile)->getLocalToEcef(), osg::Matrixd::translate(origin));
-    EXPECT_EQ(callbackOf(*leaf)->getLocalToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
+    EXPECT_EQ(installedOn(*tile)->getLocalToEcef(), osg::Matrixd::translate(origin));
+    EXPECT_EQ(installedOn(*leaf)->getLocalToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
 }
 
 TEST(BinInstaller, ABrokenStoredBinLeavesTheTileToItsSphere) {
     Database db;
     db.tile->setUserValue("osgAnalyticBin", std::string("0 0 0 1 1"));
     EXPECT_EQ(installBins(*db.root), 1u);
-    EXPECT_FALSE(callbackOf(*db.tile)->getBin().valid());
+    EXPECT_FALSE(installedOn(*db.tile)->getBin().valid());
     std::set<std::string> visited;
-    callbackOf(*db.tile)->setNestedCallback(new VisitRecorder("tile", visited));
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    cull(*db.root, CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    installedOn(*db.tile)->setNestedCallback(new VisitRecorder("tile", visited));
+    (void)cull(*db.root, CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0));
     EXPECT_EQ(visited.size(), 0u);
-    cull(*db.root, CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    (void)cull(*db.root, CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0));
     EXPECT_EQ(visited.size(), 1u);
 }
 
 TEST(BinInstaller, FindsTheBinOfAPagedLodFromItsGeometryAndDeclaresTheHeightsBelow) {
     Database db;
-    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    paged->addChild(makeTriangle(), 1e6f, 1e10f);
-    paged->setFileName(1, "children.osgb");
-    paged->setRange(1, 0.0f, 1e6f);
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeTriangle(), "children.osgb");
     db.root->addChild(paged);
     EXPECT_EQ(installBins(*db.root), 2u);
-    const AnalyticBin& bin = callbackOf(*paged)->getBin();
+    const AnalyticBin& bin = installedOn(*paged)->getBin();
     EXPECT_TRUE(bin.contains(AnalyticBin(GeodeticBin({-0.0999, 0.0999}, {-0.0999, 0.0999}, {-11034, 8849}))));
     EXPECT_LT(bin.bin().latitude().upper, 0.101);
     EXPECT_LT(bin.bin().longitude().upper, 0.1005);
@@ -189,7 +173,7 @@ TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
     const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "finer.osgb", 1e9f);
     root->addChild(tile);
     ASSERT_EQ(installBins(*root), 1u);
-    const core::Interval altitude = callbackOf(*tile)->getBin().bin().altitude();
+    const core::Interval altitude = installedOn(*tile)->getBin().bin().altitude();
     EXPECT_GE(altitude.upper, 8849.0 * kFeet);
     EXPECT_LE(altitude.lower, -10935.0 * kFeet);
 }
@@ -205,8 +189,7 @@ TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
     };
     const osg::ref_ptr<osg::CoordinateSystemNode> empty = new osg::CoordinateSystemNode;
     notesOf(*empty, "Install bins again when there are some");
-    const osg::ref_ptr<osg::Group> withoutGlobe = new osg::Group;
-    withoutGlobe->addChild(makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0), "no.osgb"));
+    const auto withoutGlobe = makeGroup({makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0), "no.osgb")});
     notesOf(*withoutGlobe, "CoordinateSystemNode");
     empty->addChild(withoutGlobe);
     const CapturedNotes notes(osg::NOTICE);
@@ -218,24 +201,42 @@ TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
 TEST(InstallBinsCallback, InstallsAtTheFirstUpdateAndOnlyThen) {
     Database db;
     db.root->setUpdateCallback(new InstallBinsCallback);
-    osgUtil::UpdateVisitor update;
-    db.above->accept(update);
-    ASSERT_NE(callbackOf(*db.tile), nullptr);
+    update(*db.above);
+    ASSERT_NE(installedOn(*db.tile), nullptr);
     db.tile->setCullCallback(nullptr);
-    db.above->accept(update);
+    update(*db.above);
     EXPECT_EQ(db.tile->getCullCallback(), nullptr);
 }
 
 TEST(InstallBinsCallback, AnExplicitInstallationWins) {
     Database db;
-    const osg::ref_ptr<InstallBinsCallback> request = new InstallBinsCallback;
-    db.root->setUpdateCallback(request.get());
-    CullOptions sphere;
-    sphere.method = Method::Sphere;
-    installBins(*db.above, sphere);
-    osgUtil::UpdateVisitor update;
-    db.above->accept(update);
+    db.root->setUpdateCallback(new InstallBinsCallback);
+    installBins(*db.above, by(Method::Sphere));
+    update(*db.above);
     EXPECT_EQ(db.tile->getCullCallback(), nullptr);
+}
+
+// Files that name what is none of the database's business: the kit reads nothing that the pager does not ask for.
+TEST(HostileNames, AreNotReadUntilThePagerAsks) {
+    const TemporaryFolder folder;
+    const CapturedNotes notes;
+    const osg::ref_ptr<CountedReads> reads = new CountedReads;
+    osgDB::Registry::instance()->setReadFileCallback(reads);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    for (const char* name : {"../../outside.osgb", "/etc/passwd", "//etc/passwd", "http://host.invalid/tile.osgb",
+                             "ftp://host.invalid/tile.osgb", "tile.osgb.analyticbin", "tile.osgb.90,0,0.rot", "..", ".",
+                             "a\\..\\..\\outside.osgb", "%s%n.osgb"}) {
+        root->addChild(makePaged(makeMeshTile(extentsDeg(10, 12, 20, 22), 200.0), name, 1e9f));
+    }
+    for (const Method method : {Method::Quadratic, Method::None, Method::Exact}) {
+        (void)installBins(*root, by(method), folder / "root.osgb");
+        update(*root);
+        (void)cull(*root, downTo(11.0, 21.0, 1e5, 60.0));
+    }
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    // the index beside the database is looked for, where its reader is there
+    for (const auto& [name, count] : reads->counts()) EXPECT_EQ(name, folder / "root.osgb.bins");
+    EXPECT_EQ(notes.count(""), 0u);
 }
 
 }  // namespace

@@ -8,8 +8,7 @@
 namespace osgAnalyticBin::test {
 
 /// Reads as OSG does, in any thread, and counts how often it is asked for each name.
-class CountedReads : public osgDB::ReadFileCallback {
-public:
+struct CountedReads : osgDB::ReadFileCallback {
     osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
         count(name);
         return osgDB::Registry::instance()->readNodeImplementation(name, options);

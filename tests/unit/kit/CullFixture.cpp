@@ -34,12 +34,6 @@ std::vector<osg::Plane> CullView::sidePlanes() const {
     return frustum.getPlaneList();
 }
 
-bool holdAny(const std::vector<osg::Plane>& planes, const std::vector<osg::Vec3d>& points) {
-    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
-        return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& p) { return p.distance(point) > 0.0; });
-    });
-}
-
 namespace {
 
 void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* viewport, osgUtil::CullVisitor& visitor) {
@@ -130,6 +124,17 @@ CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& vi
     result.stateGraph = stateGraph;
     result.stage = stage;
     return result;
+}
+
+CullResult cull(osg::Node& scene, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    return cull(scene, view, *visitor);
+}
+
+CullOptions by(Method method) {
+    CullOptions options;
+    options.method = method;
+    return options;
 }
 
 void VisitRecorder::operator()(osg::Node* node, osg::NodeVisitor* nv) {

@@ -15,6 +15,7 @@
 #include <osg/NodeCallback>
 #include <osgUtil/CullVisitor>
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,9 +36,6 @@ struct CullView {
 
     [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
 };
-
-/// Whether one of the points is inside of all planes.
-[[nodiscard]] bool holdAny(const std::vector<osg::Plane>& planes, const std::vector<osg::Vec3d>& points);
 
 /// What a cull traversal leaves to draw.
 struct CullResult {
@@ -68,6 +66,21 @@ std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin);
 /// seconds.
 CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,
                 double time = 0.0);
+/// By a visitor of its own.
+CullResult cull(osg::Node& scene, const CullView& view);
+
+[[nodiscard]] CullOptions by(Method method);
+
+/// Does something, if anything, before its node is traversed.
+struct Before : osg::NodeCallback {
+    using Action = std::function<void(osgUtil::CullVisitor&)>;
+    explicit Before(Action what = {}) : action(std::move(what)) {}
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        if (action && nv->asCullVisitor()) action(*nv->asCullVisitor());
+        traverse(node, nv);
+    }
+    const Action action;
+};
 
 /// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
 class VisitRecorder : public osg::NodeCallback {

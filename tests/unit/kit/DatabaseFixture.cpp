@@ -22,11 +22,25 @@ core::GeodeticBin extentsDeg(double south, double north, double west, double eas
     return core::GeodeticBin::fromDegrees({south, north}, {west, east}, {0, 0});
 }
 
-osg::ref_ptr<osgTerrain::TerrainTile> makeFlatTile(const core::GeodeticBin& extents, float height, float skirt) {
+osg::ref_ptr<osgTerrain::TerrainTile> makeFlatTile(const core::GeodeticBin& extents, float height, float skirt,
+                                                   unsigned int posts) {
     osg::ref_ptr<osgTerrain::TerrainTile> tile =
-        makeTerrainTile(extents, 9, 9, [height](unsigned int, unsigned int) { return height; });
+        makeTerrainTile(extents, posts, posts, [height](unsigned int, unsigned int) { return height; });
     static_cast<osgTerrain::HeightFieldLayer*>(tile->getElevationLayer())->getHeightField()->setSkirtHeight(skirt);
     return tile;
+}
+
+osg::ref_ptr<osg::CoordinateSystemNode> makeGlobe(const std::vector<osg::ref_ptr<osg::Node>>& children) {
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    globe->setEllipsoidModel(new osg::EllipsoidModel);
+    for (const auto& child : children) globe->addChild(child);
+    return globe;
+}
+
+osg::ref_ptr<osg::Group> makeGroup(const std::vector<osg::ref_ptr<osg::Node>>& children) {
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (const auto& child : children) group->addChild(child);
+    return group;
 }
 
 osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height, unsigned int posts) {
@@ -56,6 +70,11 @@ osg::ref_ptr<osg::PagedLOD> makePaged(osg::Node* mesh, const std::string& file, 
     return paged;
 }
 
+void setFinerWithin(osg::PagedLOD& paged, float distance) {
+    paged.setRange(0, distance, 1e10f);
+    paged.setRange(1, 0.0f, distance);
+}
+
 void putBelow(osg::PagedLOD& paged, osg::Node* content) {
     paged.addChild(content);
 }
@@ -69,12 +88,9 @@ std::string writeMeshDatabase(const std::string& folder, double leafHeight, doub
     const auto whole = extentsDeg(10, 50, 0, 40);
     const auto south = extentsDeg(10, 30, 0, 40);
     const auto north = extentsDeg(30, 50, 0, 40);
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    root->addChild(makePaged(makeMeshTile(whole, 200.0), "children.osgb", 1e9f));
-    const osg::ref_ptr<osg::Group> children = new osg::Group;
-    children->addChild(makeMeshTile(south, leafHeight));
-    children->addChild(makePaged(makeMeshTile(north, 200.0), "single.osgb", 1e9f));
+    const auto root = makeGlobe({makePaged(makeMeshTile(whole, 200.0), "children.osgb", 1e9f)});
+    const auto children =
+        makeGroup({makeMeshTile(south, leafHeight), makePaged(makeMeshTile(north, 200.0), "single.osgb", 1e9f)});
     const std::string file = folder + "/root.osgb";
     const bool isWritten = osgDB::writeNodeFile(*root, file) &&
                            osgDB::writeNodeFile(*children, folder + "/children.osgb") &&

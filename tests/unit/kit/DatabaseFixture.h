@@ -14,6 +14,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -22,7 +23,13 @@ namespace osgAnalyticBin::test {
 
 /// A terrain tile of one height; skirt in metres.
 [[nodiscard]] osg::ref_ptr<osgTerrain::TerrainTile> makeFlatTile(const core::GeodeticBin& extents, float height,
-                                                                 float skirt = 0.0f);
+                                                                 float skirt = 0.0f, unsigned int posts = 9);
+
+/// WGS 84, with these children.
+[[nodiscard]] osg::ref_ptr<osg::CoordinateSystemNode> makeGlobe(
+    const std::vector<osg::ref_ptr<osg::Node>>& children = {});
+
+[[nodiscard]] osg::ref_ptr<osg::Group> makeGroup(const std::vector<osg::ref_ptr<osg::Node>>& children);
 
 /// A mesh of one height: a transform to the middle of the tile, a Geode and a Geometry with posts on a square grid.
 [[nodiscard]] osg::ref_ptr<osg::MatrixTransform> makeMeshTile(const core::GeodeticBin& extents, double height,
@@ -30,6 +37,9 @@ namespace osgAnalyticBin::test {
 
 /// A mesh, and a file for what is nearer than `cutoff` metres to the mesh's middle.
 [[nodiscard]] osg::ref_ptr<osg::PagedLOD> makePaged(osg::Node* mesh, const std::string& file, float cutoff = 1e6f);
+
+/// Shows what is paged below the tile within so many metres, and its mesh beyond.
+void setFinerWithin(osg::PagedLOD& paged, float distance);
 
 /// Puts content in the place where the pager would put that of the PagedLOD's file.
 void putBelow(osg::PagedLOD& paged, osg::Node* content);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What hides is known to be drawn, and what is hidden is known to obey depth: meshes, states, callbacks, whatever an
-// application makes of them. More of it, and all states one by one: tests/scenes.
+// What hides is known to be drawn, what is hidden is known to obey depth, and where OSG computes the near plane, it is
+// known not to cut anything open: meshes, states, callbacks, whatever an application makes of them. More of it, and all
+// states one by one: tests/scenes.
 
 #include "KitTest.h"
 #include "RidgeGlobe.h"
@@ -11,20 +12,14 @@
 #include <osg/Switch>
 
 namespace osgAnalyticBin::test {
-
 namespace {
-
-osg::Geometry& geometryOf(osg::Node& tile) {
-    return *drawableOf(tile)->asGeometry();
-}
 
 // Gives a tile the vertices of another mesh, as OSG asks for it.
 void takeVertices(osg::MatrixTransform& from, osg::PagedLOD& tile) {
     const auto& mesh = dynamic_cast<const osg::MatrixTransform&>(*tile.getChild(0));
     const osg::Vec3d shift = from.getMatrix().getTrans() - mesh.getMatrix().getTrans();
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    for (const osg::Vec3& vertex : static_cast<const osg::Vec3Array&>(*geometryOf(from).getVertexArray()))
-        vertices->push_back(osg::Vec3d(vertex) + shift);
+    for (const osg::Vec3& vertex : verticesOf(from)) vertices->push_back(osg::Vec3d(vertex) + shift);
     geometryOf(tile).setVertexArray(vertices);
     geometryOf(tile).dirtyBound();
 }
@@ -33,10 +28,7 @@ TEST(Evidence, IsMissingForAMeshThatHasBecomeNarrower) {
     MeshGlobe globe;
     installBins(*globe.root);
     takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, -1.0), 0.0), *globe.tiles[19]);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
+    globe.expectAntipode(true);
 }
 
 TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
@@ -44,7 +36,7 @@ TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
     installBins(*globe.root);
     const auto hidden = [&] {
         EXPECT_FALSE(globe.drawsAntipode());
-        return BinStatistics::of(*globe.visitor).getCounts().hidden;
+        return globe.counts().hidden;
     };
     const auto before = hidden();
     takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), -6e5), *globe.tiles[19]);
@@ -60,16 +52,11 @@ void addTo(osg::PagedLOD& tile, osg::Node* file) {
     putBelow(tile, file);
 }
 
-void seeThrough(osg::Node& node) {
-    node.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
-}
-
 TEST(AddedLevels, HideWhatIsBehindThemUnlessTheyAreSeenThrough) {
     for (const bool isBlended : {false, true}) {
         RidgeGlobe globe(0.0);
-        const osg::ref_ptr<osg::Group> file = new osg::Group;
-        file->addChild(makePaged(makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 8000.0), "no.osgb"));
-        if (isBlended) seeThrough(*file->getChild(0));
+        const auto file = makeGroup({makePaged(makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 8000.0), "no.osgb")});
+        if (isBlended) file->getChild(0)->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
         addTo(*globe.row[2], file);
         installBins(*globe.root, withOcclusion());
         EXPECT_EQ(globe.drawsFarTile(), isBlended);
@@ -96,12 +83,12 @@ TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
             CullView::lookAt(ecefDeg(22.0, -22.5, altitude), ecefDeg(60.0, 60.0, 0.0), {0, 0, 1}, 60.0);
         for (int i = 0; i < 4; ++i) {
             EXPECT_FALSE(globe.draws(*globe.tiles[15], low)) << altitude;
-            EXPECT_GT(BinStatistics::find(*globe.visitor)->getCounts().hidden, 0u) << altitude;
+            EXPECT_GT(globe.counts().hidden, 0u) << altitude;
         }
         takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), 20000.0), *globe.tiles[19]);
         for (int i = 0; i < 20; ++i) {
             (void)globe.draws(*globe.tiles[15], low);
-            EXPECT_EQ(BinStatistics::find(*globe.visitor)->getCounts().hidden, 0u) << altitude << ' ' << i;
+            EXPECT_EQ(globe.counts().hidden, 0u) << altitude << ' ' << i;
             update(*globe.root);
         }
     }
@@ -150,7 +137,7 @@ TEST(Evidence, IsMissingWithinARockThatHangsOverTheGround) {
 TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     const auto sign = [](const osg::Vec3d& at) {
         const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(at);
-        drawableOf(*tower)->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        ignoreDepth(*drawableOf(*tower));
         return tower;
     };
     const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
@@ -293,13 +280,136 @@ TYPED_TEST(InGroups, ContentIsNoticedWhereTheBoundsOfAllNodesAreComputed) {
         globe.tiles[19]->setComputeBoundingSphereCallback(new OwnBound);
         const osg::ref_ptr<osg::Node> tower = makeTower(at);
         globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
-        for (int i = 0; i < 4; ++i) {
-            EXPECT_TRUE(globe.draws(*tower, beside(at))) << isFromTheRoot << i;
-            update(*globe.root);
-        }
+        globe.expectDrawn(*tower, beside(at), true, 4);
     }
 }
 
-}  // namespace
+// A camera whose near and far planes OSG computes, with a scene of a globe and something beside it.
+struct ComputedPlanes {
+    explicit ComputedPlanes(const CullOptions& options = withOcclusion()) {
+        scene->addChild(globe.root);
+        globe.scene = scene;
+        computeNear(view, *scene);
+        globe.visitor->setNearFarRatio(1e-5);
+        installBins(*globe.root, options);
+    }
 
+    [[nodiscard]] bool hidesFarTile() { return !globe.drawsFarTile(view); }
+
+    // A point in the frame of the scene.
+    static osg::ref_ptr<osg::Geometry> drawableAt(const osg::Vec3& point) {
+        osg::ref_ptr<osg::Geometry> drawable = new osg::Geometry;
+        drawable->setVertexArray(new osg::Vec3Array(1, &point));
+        drawable->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 1));
+        return drawable;
+    }
+    // At a distance ahead of the eye, in metres.
+    [[nodiscard]] osg::ref_ptr<osg::Geometry> drawableAhead(double distance) const {
+        return drawableAt(osg::Vec3d(0.0, 0.0, -distance) * osg::Matrixd::inverse(view.modelView));
+    }
+
+    RidgeGlobe globe;
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    CullView view = RidgeGlobe::alongRow();
+};
+
+TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
+    ComputedPlanes planes;
+    EXPECT_TRUE(planes.hidesFarTile());
+    planes.scene->addChild(planes.drawableAhead(1e6));
+    EXPECT_TRUE(planes.hidesFarTile());
+    // planes of their own
+    const osg::ref_ptr<osg::Camera> overlay = new osg::Camera;
+    overlay->addChild(planes.drawableAhead(1e10));
+    planes.scene->addChild(overlay);
+    EXPECT_TRUE(planes.hidesFarTile());
+}
+
+// OSG moves an oblique plane along the look direction.
+TEST(ComputedNear, IsNotKnownOfAnObliquePlane) {
+    ComputedPlanes planes;
+    EXPECT_TRUE(planes.hidesFarTile());
+    planes.view.projection(0, 2) = 0.1;
+    EXPECT_FALSE(planes.hidesFarTile());
+}
+
+// A camera's own callback may draw anything, unless it is declared.
+TEST(ComputedNear, IsNotKnownBelowACameraWithACallback) {
+    ComputedPlanes planes;
+    const osg::ref_ptr<Before> callback = new Before;
+    planes.view.camera->setCullCallback(callback);
+    EXPECT_FALSE(planes.hidesFarTile());
+    setTraversesAlways(*callback);
+    EXPECT_TRUE(planes.hidesFarTile());
+    setTraversesAlways(*callback, false);
+    EXPECT_FALSE(planes.hidesFarTile());
+}
+
+// Where the root tests no tiles together, OSG enters what is there by itself.
+TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
+    for (const bool isTerrain : {true, false}) {
+        ComputedPlanes planes;
+        const osg::ref_ptr<osg::Group> tiles = new osg::Group(*planes.globe.root);
+        tiles->setCullCallback(nullptr);
+        tiles->setUpdateCallback(nullptr);
+        tiles->setComputeBoundingSphereCallback(nullptr);
+        osg::ref_ptr<osg::CoordinateSystemNode> root = makeGlobe({tiles});
+        if (isTerrain) {
+            root = new osgTerrain::Terrain;
+            root->setEllipsoidModel(new osg::EllipsoidModel);
+            root->addChild(tiles);
+        }
+        planes.scene->replaceChild(planes.globe.root, root);
+        planes.globe.root = root;
+        installBins(*root, withOcclusion());
+        if (!isTerrain) root->addCullCallback(new osg::NodeCallback);
+        EXPECT_TRUE(planes.hidesFarTile()) << isTerrain;
+        root->addChild(planes.drawableAhead(1e10));
+        EXPECT_FALSE(planes.hidesFarTile()) << isTerrain;
+    }
+}
+
+TEST(ComputedNear, IsUnknownBesideWhatIsUnknown) {
+    struct Unknown : osg::Group {};
+    for (const bool isClass : {true, false}) {
+        ComputedPlanes planes;
+        const osg::ref_ptr<osg::Group> beside = isClass ? new Unknown : new osg::Group;
+        beside->setName("the stranger");
+        if (!isClass) beside->setCullCallback(new Before);
+        planes.scene->addChild(beside);
+        const CapturedNotes notes(osg::INFO);
+        for (int i = 0; i < 3; ++i) EXPECT_FALSE(planes.hidesFarTile());
+        EXPECT_EQ(notes.count("the stranger"), 1u);
+    }
+    // as it may be moved by the application
+    struct Clamp : osg::CullSettings::ClampProjectionMatrixCallback {
+        bool clampProjectionMatrixImplementation(osg::Matrixf&, double&, double&) const override { return false; }
+        bool clampProjectionMatrixImplementation(osg::Matrixd&, double&, double&) const override { return false; }
+    };
+    ComputedPlanes clamped;
+    clamped.globe.visitor->setClampProjectionMatrixCallback(new Clamp);
+    EXPECT_FALSE(clamped.hidesFarTile());
+    ComputedPlanes byPrimitives;
+    byPrimitives.view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES;
+    EXPECT_FALSE(byPrimitives.hidesFarTile());
+    struct Derived : osgUtil::CullVisitor {};
+    ComputedPlanes derived;
+    derived.globe.visitor = new Derived;
+    derived.globe.visitor->setNearFarRatio(1e-5);
+    EXPECT_FALSE(derived.hidesFarTile());
+    setDrawsAsCullVisitor(*derived.globe.visitor);
+    EXPECT_TRUE(derived.hidesFarTile());
+}
+
+// The plane is where OSG puts it when all is drawn that is not hidden, not where it would be with less.
+TEST(ComputedNear, CutsAwayWhatItReaches) {
+    ComputedPlanes planes;
+    EXPECT_TRUE(planes.hidesFarTile());
+    planes.globe.visitor->setNearFarRatio(0.05);  // the ridge is in front of it
+    EXPECT_FALSE(planes.hidesFarTile());
+    planes.globe.visitor->setNearFarRatio(1e-5);
+    EXPECT_TRUE(planes.hidesFarTile());
+}
+
+}  // namespace
 }  // namespace osgAnalyticBin::test

@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view. And the records
-// of tiles that they go by, which pager threads and cull threads doubt while the update traversal makes families.
+// Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view. The records of
+// tiles that they go by, which pager threads and cull threads doubt while the update traversal makes families. And the
+// eye above the lowest surface that is shown; random databases, eyes and rays: tests/long/scenes.
 
 #include "../../../osgAnalyticBin/src/kit/CallbackChain.h"
+#include "../../../osgAnalyticBin/src/kit/cull/CullTraversal.h"
+#include "../../../osgAnalyticBin/src/kit/cull/ShownDepth.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileFamily.h"
+#include "../../../osgAnalyticBin/src/kit/cull/TileSelection.h"
 #include "../../../osgAnalyticBin/src/kit/tile/InstalledTile.h"
 #include "KitTest.h"
+
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <atomic>
 
@@ -21,12 +27,13 @@ struct GroupTree : MeshGlobe {
         for (int half = 0; half < 2; ++half) {
             halves.push_back(new osg::Group);
             root->addChild(halves.back());
-            for (unsigned int i = 0; i < 4; ++i) {
-                groups.push_back(new osg::Group);
-                halves.back()->addChild(groups.back());
-            }
         }
-        for (unsigned int i = 0; i < 32; ++i) groups[i / 16 * 4 + i % 8 / 2]->addChild(tiles[i]);
+        for (unsigned int i = 0; i < 8; ++i) {
+            const unsigned int first = i / 4 * 16 + i % 4 * 2;
+            groups.push_back(makeGroup({tiles[first], tiles[first + 1], tiles[first + 8], tiles[first + 9]}));
+            halves[i / 4]->addChild(groups.back());
+        }
+        EXPECT_EQ(installBins(*root), 32u);
     }
 
     // Returns: nullptr where the search does not pass over the group.
@@ -58,7 +65,6 @@ void expectHeld(const ColumnUnion& columns, const AnalyticBin& bin) {
 TEST(GroupTree, HoldsTheColumnsOfAllTiles) {
     for (const double altitude : {-9000.0, 0.0, 3000.0}) {
         GroupTree tree(altitude);
-        ASSERT_EQ(installBins(*tree.root), 32u);
         for (unsigned int i = 0; i < 32; ++i) {
             const AnalyticBin bin = binOf(*tree.tiles[i]).getBin();
             for (osg::Group* const group : {tree.halves[i / 16].get(), tree.tiles[i]->getParent(0)}) {
@@ -71,7 +77,6 @@ TEST(GroupTree, HoldsTheColumnsOfAllTiles) {
 
 TEST(GroupTree, FollowsBinsThatGrow) {
     GroupTree tree;
-    ASSERT_EQ(installBins(*tree.root), 32u);
     ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
     AnalyticBinCullCallback& callback = binOf(*tree.tiles[3]);
     AnalyticBin wide = callback.getBin();
@@ -86,7 +91,6 @@ TEST(GroupTree, FollowsBinsThatGrow) {
 
 TEST(GroupTree, DoubtsWhatIsKeptVisible) {
     GroupTree tree;
-    ASSERT_EQ(installBins(*tree.root), 32u);
     // high in the air, until the next update widens the bin
     tree.tiles[3]->insertChild(0, makeTower(ecefDeg(-70, -30, 50000.0)));
     EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
@@ -105,7 +109,6 @@ TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
     for (int what = 0; what < 4; ++what) {
         for (const bool isDeep : {false, true}) {
             GroupTree tree;
-            ASSERT_EQ(installBins(*tree.root), 32u);
             ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
             change(what, isDeep ? *tree.groups[1] : *tree.halves[0]);
             EXPECT_FALSE(tree.columnsBelow(*tree.halves[0])) << what << isDeep;
@@ -116,7 +119,6 @@ TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
 
 TEST(GroupTree, TrustsAFamilyThatWasMadeAnew) {
     GroupTree tree;
-    ASSERT_EQ(installBins(*tree.root), 32u);
     TileFamily::renew(*tree.groups[1]);
     ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
     binOf(*tree.groups[1]->getChild(0)).setBin(AnalyticBin());
@@ -125,7 +127,6 @@ TEST(GroupTree, TrustsAFamilyThatWasMadeAnew) {
 
 TEST(GroupTree, DoubtsAGroupWithoutItsWatch) {
     GroupTree tree;
-    ASSERT_EQ(installBins(*tree.root), 32u);
     removeBins(*tree.groups[1]);
     EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
 }
@@ -174,6 +175,83 @@ TEST_F(InstalledTiles, AreNotBelievedWhileTheyAreDoubtedWhateverElseIsSettled) {
 
 TEST_F(InstalledTiles, AreDoubtedWhileTheirFamiliesAreMadeAnew) {
     for (int i = 0; i < 20000; ++i) join();
+}
+
+// Asks for the eye over a database of which nothing is deeper than `deepest`.
+struct Asker : osg::NodeCallback {
+    explicit Asker(double deepestAltitude) : deepest(deepestAltitude) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        osg::CullStack& cullStack = *nv->asCullStack();
+        core::PlaneSet planes;
+        for (const osg::Plane& plane : cullStack.getCurrentCullingSet().getFrustum().getPlaneList())
+            planes.push_back({{plane[0], plane[1], plane[2]}, plane[3]});
+        TileSelection selection;
+        const DatabaseView view{*node->asGroup(),
+                                *nv,
+                                CullTraversal::of(*nv),
+                                cullStack,
+                                cullStack.getModelViewMatrix(),
+                                cullStack.getProjectionMatrix(),
+                                planes,
+                                nullptr,
+                                earth(),
+                                {},
+                                &selection,
+                                &selection};
+        const auto found = eyeAboveWhatIsShown(view, *Viewpoint::of(cullStack, *nv, false), deepest, depth);
+        if (found && found->isAboveGround) eye = found->horizon;
+    }
+
+    const double deepest;
+    double depth = 3000.0;
+    std::optional<core::HorizonEye> eye;
+};
+
+void addLeaf(osg::Group& root, const core::GeodeticBin& extents, double altitude) {
+    const auto tile = makeGroup({makeMeshTile(extents, altitude)});
+    setStoredBin(*tile, AnalyticBin(extents.withAltitude({altitude - 30.0, altitude + 1.0}), 1.0));
+    root.addChild(tile);
+}
+
+// Looking east along the equator past the limb, 4500 m below the ellipsoid at its nearest, over tiles of a basin at
+// -9000 m that are all below the picture. Beyond the limb there is something at -4000 m.
+TEST(ShownDepth, IsThatOfABasinThatLinesOfSightPassHighAboveAndNeverLowerThanDeclared) {
+    const auto root = makeGlobe();
+    addLeaf(*root, extentsDeg(-1.0, 1.0, -1.0, 0.5), -3000.0);
+    for (int i = 10; i < 100; ++i) addLeaf(*root, extentsDeg(-0.025, 0.025, 0.05 * i, 0.05 * (i + 1)), -9000.0);
+    EXPECT_EQ(installBins(*root), 91u);
+    const double toLimb = std::acos((kEarthRadius - 4500.0) / (kEarthRadius + 2000.0)), beyond = 1.3 * toLimb;
+    const core::HorizonBin something(earth(), core::GeodeticBin({0.0, 0.0}, {beyond, beyond}, {-4000.0, -4000.0}));
+    const CullView view = CullView::lookAt(ecefDeg(0.0, 0.0, 2000.0),
+                                           ecefDeg(0.0, osg::RadiansToDegrees(toLimb), -4500.0), {1, 0, 0}, 0.1);
+    for (const double deepest : {std::numeric_limits<double>::infinity(), 3000.0}) {
+        const osg::ref_ptr<Asker> asker = new Asker(deepest);
+        asker->setNestedCallback(root->getCullCallback());
+        root->setCullCallback(asker);
+        (void)cull(*root, view);
+        root->setCullCallback(asker->getNestedCallback());
+        ASSERT_TRUE(asker->eye) << deepest;
+        EXPECT_NEAR(asker->depth, 9000.0, deepest > 3000.0 ? 1.0 : 6001.0);
+        EXPECT_EQ(asker->eye->hides(something), deepest == 3000.0);
+    }
+}
+
+// The system may give it the address of one that is gone.
+TEST(LastViews, OfADatabaseAreForgottenWithIt) {
+    struct Known : InstalledDatabase {
+        Known() : InstalledDatabase(new osg::EllipsoidModel) {}
+    };
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    CullTraversal& traversal = CullTraversal::of(*visitor);
+    osg::ref_ptr<Known> database = new Known;
+    traversal.lastView(*database).depth = 1000.0;
+    EXPECT_EQ(traversal.lastView(*database).depth, 1000.0);
+    const Known* const before = database;
+    database = nullptr;
+    std::vector<osg::ref_ptr<Known>> others;
+    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new Known);
+    EXPECT_EQ(traversal.lastView(*database).depth, 0.0);
 }
 
 }  // namespace

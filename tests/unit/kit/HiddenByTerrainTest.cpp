@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Models behind hills and behind the horizon. More of them: tests/scenes/models-*.scene. Pictures and random scenes:
-// tests/long/scenes. What the core proves:
+// Models behind hills and behind the horizon. More of them: tests/scenes/models-*.scene. What the core proves:
 // SortedEarthTest.cpp, HorizonTest.cpp.
 
 #include "KitTest.h"
@@ -16,21 +15,26 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+osg::ref_ptr<osg::MatrixTransform> askingModel(const osg::Vec3d& at) {
+    osg::ref_ptr<osg::MatrixTransform> model = makeTower(at);
+    model->addCullCallback(new HiddenByTerrainCallback);
+    return model;
+}
+
 // The ridge's globe, and a model beside the database that comes after it.
 struct ModelsOnGlobe : RidgeGlobe {
     explicit ModelsOnGlobe(const CullOptions& options = withOcclusion()) {
-        scene = new osg::Group;
-        scene->addChild(root);
+        scene = makeGroup({root});
         installBins(*root, options);
     }
 
     osg::ref_ptr<osg::MatrixTransform> add(const osg::Vec3d& at, osg::Group& group) {
-        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(at);
-        model->addCullCallback(new HiddenByTerrainCallback);
+        const auto model = askingModel(at);
         group.addChild(model);
         return model;
     }
     osg::ref_ptr<osg::MatrixTransform> add(const osg::Vec3d& at) { return add(at, *scene); }
+    [[nodiscard]] bool drawsAlongRow(osg::Node& node) { return draws(node, alongRow()); }
 };
 
 const osg::Vec3d kBehindRidge = ecefDeg(0.1, 0.9, 300.0), kBeforeRidge = ecefDeg(0.1, 0.3, 300.0);
@@ -48,22 +52,20 @@ TEST(HiddenByTerrain, NeedsADepthTestInViews) {
     EXPECT_TRUE(globe.drawsFarTile());
     testDepth(*globe.root);
     EXPECT_FALSE(globe.drawsFarTile());
-    EXPECT_TRUE(globe.draws(*behind, RidgeGlobe::alongRow()));
+    EXPECT_TRUE(globe.drawsAlongRow(*behind));
     testDepth(*globe.scene);
-    EXPECT_FALSE(globe.draws(*behind, RidgeGlobe::alongRow()));
+    EXPECT_FALSE(globe.drawsAlongRow(*behind));
 }
 
 // A globe of large tiles, seen from above, and models on it.
 struct ModelsOnRoundGlobe : MeshGlobe {
     explicit ModelsOnRoundGlobe(const CullOptions& options, double altitude = 0.0) : MeshGlobe(altitude) {
-        scene = new osg::Group;
-        scene->addChild(root);
+        scene = makeGroup({root});
         installBins(*root, options);
     }
     // In the second of two views: whether the near plane may cut terrain is found out once a node has asked.
     [[nodiscard]] bool drawsModelAt(const osg::Vec3d& at, const CullView& view) {
-        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(at);
-        model->addCullCallback(new HiddenByTerrainCallback);
+        const auto model = askingModel(at);
         scene->addChild(model);
         (void)draws(*model, view);
         const bool isDrawn = draws(*model, view);
@@ -90,9 +92,7 @@ TEST(HiddenByTerrain, HidesNothingBehindTheHorizonWhereTheNearPlaneMayCutTerrain
 TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlane) {
     ModelsOnRoundGlobe globe{CullOptions()};
     CullView view = MeshGlobe::fromAbove();
-    view.camera = new osg::Camera;
-    view.camera->addChild(globe.scene);
-    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    computeNear(view, *globe.scene);
     EXPECT_FALSE(globe.drawsModelAt(kOtherSide, view));
     EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
     // a plane at 5000 km
@@ -105,12 +105,12 @@ TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabase) {
     const osg::ref_ptr<osg::Group> first = new osg::Group;
     globe.scene->insertChild(0, first);
     const auto model = globe.add(kBehindRidge, *first);
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.drawsAlongRow(*model));
     // above the database
     ModelsOnGlobe whole;
     whole.scene->addCullCallback(new HiddenByTerrainCallback);
     const auto behind = whole.add(kBehindRidge);
-    EXPECT_TRUE(whole.draws(*behind, RidgeGlobe::alongRow()));
+    EXPECT_TRUE(whole.drawsAlongRow(*behind));
 }
 
 // A camera within the scene, and a projection, see something else.
@@ -138,8 +138,8 @@ TEST(HiddenByTerrain, ForgetsTheViewOfAnotherFrame) {
     const osg::ref_ptr<osg::Group> first = new osg::Group;
     globe.scene->insertChild(0, first);
     const auto before = globe.add(kBehindRidge, *first), after = globe.add(kBehindRidge);
-    EXPECT_FALSE(globe.draws(*after, RidgeGlobe::alongRow()));
-    EXPECT_TRUE(globe.draws(*before, RidgeGlobe::alongRow()));
+    EXPECT_FALSE(globe.drawsAlongRow(*after));
+    EXPECT_TRUE(globe.drawsAlongRow(*before));
     // and in another pass of the same one
     --globe.frame;
     const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0);
@@ -149,19 +149,13 @@ TEST(HiddenByTerrain, ForgetsTheViewOfAnotherFrame) {
 
 using ModelChange = std::function<void(osg::MatrixTransform& model)>;
 
-osg::Geometry& meshOf(osg::MatrixTransform& model) {
-    return *drawableOf(model)->asGeometry();
-}
 osg::StateSet& stateOf(osg::MatrixTransform& model) {
-    return *meshOf(model).getOrCreateStateSet();
+    return *geometryOf(model).getOrCreateStateSet();
 }
 
 class OwnGeometry : public osg::Geometry {
 public:
     explicit OwnGeometry(const osg::Geometry& other) : osg::Geometry(other) {}
-};
-class OwnCull : public osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
 };
 
 void wrap(osg::MatrixTransform& model, osg::Group& group) {
@@ -171,14 +165,24 @@ void wrap(osg::MatrixTransform& model, osg::Group& group) {
     model.addChild(&group);
 }
 
+void wrapInLevel(osg::MatrixTransform& model, float radius = 0.0f) {
+    const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    if (radius > 0.0f) {
+        lod->setCenter(osg::Vec3());
+        lod->setRadius(radius);
+    }
+    wrap(model, *lod);
+    lod->setRange(0, 0.0f, 1e9f);
+}
+
 // What may be drawn in front of terrain, or outside of its sphere, and is not in tests/scenes/models-*.scene.
 TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
     const std::vector<std::pair<std::string, ModelChange>> changes{
         {"a bin of its own", [](auto& model) { stateOf(model).setRenderBinDetails(3, "SomeBin"); }},
         {"smooth edges", [](auto& model) { stateOf(model).setMode(GL_POLYGON_SMOOTH, osg::StateAttribute::ON); }},
-        {"points", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},
-        {"lines", [](auto& model) { meshOf(model).getPrimitiveSet(0)->setMode(GL_LINE_STRIP); }},
-        {"a cull callback below", [](auto& model) { model.getChild(0)->addCullCallback(new OwnCull); }},
+        {"points", [](auto& model) { geometryOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},
+        {"lines", [](auto& model) { geometryOf(model).getPrimitiveSet(0)->setMode(GL_LINE_STRIP); }},
+        {"a cull callback below", [](auto& model) { model.getChild(0)->addCullCallback(new Before); }},
         {"no culling below", [](auto& model) { model.getChild(0)->setCullingActive(false); }},
         {"another frame",
          [](auto& model) {
@@ -203,33 +207,18 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
          [](auto& model) {
              wrap(model, *new osg::MatrixTransform(osg::Matrixd(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -0.001, 0, 0, 0, 1)));
          }},
-        {"a sphere that is too small",
-         [](auto& model) {
-             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-             lod->setCenter(osg::Vec3());
-             lod->setRadius(1.0f);
-             wrap(model, *lod);
-             lod->setRange(0, 0.0f, 1e9f);
-         }},
+        {"a sphere that is too small", [](auto& model) { wrapInLevel(model, 1.0f); }},
         {"a class of the application's",
-         [](auto& model) { model.getChild(0)->asGroup()->addChild(new OwnGeometry(meshOf(model))); }},
+         [](auto& model) { model.getChild(0)->asGroup()->addChild(new OwnGeometry(geometryOf(model))); }},
         {"a camera", [](auto& model) { wrap(model, *new osg::Camera); }},
     };
     for (const auto& [name, change] : changes) {
         ModelsOnGlobe globe;
         const auto model = globe.add(kBehindRidge);
-        ASSERT_FALSE(globe.draws(*model, RidgeGlobe::alongRow()));
+        ASSERT_FALSE(globe.drawsAlongRow(*model));
         bool isEntered = false;
-        struct Entered : public osg::NodeCallback {
-            explicit Entered(bool& entered) : isEntered(entered) {}
-            void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-                isEntered = true;
-                traverse(node, nv);
-            }
-            bool& isEntered;
-        };
         change(*model);
-        const osg::ref_ptr<Entered> entered = new Entered(isEntered);
+        const osg::ref_ptr<Before> entered = new Before([&](auto&) { isEntered = true; });
         setTraversesAlways(*entered);
         model->addCullCallback(entered);
         (void)globe.draws(*globe.row[0], RidgeGlobe::alongRow());
@@ -239,20 +228,8 @@ TEST(HiddenByTerrain, DrawsWhatMayBeSeenAllTheSame) {
 
 TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
     const std::vector<std::pair<std::string, ModelChange>> changes{
-        {"levels of detail",
-         [](auto& model) {
-             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-             wrap(model, *lod);
-             lod->setRange(0, 0.0f, 1e9f);
-         }},
-        {"a level in a sphere of the user's",
-         [](auto& model) {
-             const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-             lod->setCenter(osg::Vec3());
-             lod->setRadius(200.0f);
-             wrap(model, *lod);
-             lod->setRange(0, 0.0f, 1e9f);
-         }},
+        {"levels of detail", [](auto& model) { wrapInLevel(model); }},
+        {"a level in a sphere of the user's", [](auto& model) { wrapInLevel(model, 200.0f); }},
         {"another node that asks",
          [](auto& model) { model.getChild(0)->addCullCallback(new HiddenByTerrainCallback); }},
         {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }},
@@ -261,7 +238,7 @@ TEST(HiddenByTerrain, LeavesOutModelsOfManyKinds) {
         ModelsOnGlobe globe;
         const auto model = globe.add(kBehindRidge);
         change(*model);
-        EXPECT_FALSE(globe.draws(*model, RidgeGlobe::alongRow())) << name;
+        EXPECT_FALSE(globe.drawsAlongRow(*model)) << name;
         EXPECT_EQ(drawableOf(*model) == nullptr, false) << name;
     }
 }
@@ -270,7 +247,7 @@ TEST(HiddenByTerrain, FollowsStatesAbove) {
     for (const bool ignoresDepth : {false, true}) {
         ModelsOnGlobe globe;
         const osg::ref_ptr<osg::Group> group = new osg::Group;
-        if (ignoresDepth) group->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        if (ignoresDepth) ignoreDepth(*group);
         globe.scene->addChild(group);
         const osg::ref_ptr<osg::Group> inner = new osg::Group;
         inner->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
@@ -278,9 +255,9 @@ TEST(HiddenByTerrain, FollowsStatesAbove) {
         const auto first = globe.add(kBehindRidge, *inner), second = globe.add(kBehindRidge, *inner);
         const auto other = globe.add(kBehindRidge);
         stateOf(*second).setMode(GL_BLEND, osg::StateAttribute::ON);
-        EXPECT_EQ(globe.draws(*first, RidgeGlobe::alongRow()), ignoresDepth);
-        EXPECT_EQ(globe.draws(*second, RidgeGlobe::alongRow()), ignoresDepth);
-        EXPECT_FALSE(globe.draws(*other, RidgeGlobe::alongRow()));
+        EXPECT_EQ(globe.drawsAlongRow(*first), ignoresDepth);
+        EXPECT_EQ(globe.drawsAlongRow(*second), ignoresDepth);
+        EXPECT_FALSE(globe.drawsAlongRow(*other));
     }
 }
 
@@ -288,9 +265,7 @@ TEST(HiddenByTerrain, FollowsStatesAbove) {
 TEST(HiddenByTerrain, LeavesOutModelsWhereOsgComputesTheNearPlane) {
     ModelsOnGlobe globe;
     CullView view = RidgeGlobe::alongRow();
-    view.camera = new osg::Camera;
-    view.camera->addChild(globe.scene);
-    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    computeNear(view, *globe.scene);
     globe.visitor->setNearFarRatio(1e-5);
     std::vector<osg::ref_ptr<osg::MatrixTransform>> models;
     for (int i = 0; i < 1000; ++i) models.push_back(globe.add(kBehindRidge));
@@ -307,8 +282,8 @@ TEST(HiddenByTerrain, OnATileKeepsTheDatabaseFromHiding) {
     ModelsOnGlobe globe;
     const auto model = globe.add(kBehindRidge);
     globe.row[2]->addCullCallback(new HiddenByTerrainCallback);
-    EXPECT_TRUE(globe.draws(*model, RidgeGlobe::alongRow()));
-    EXPECT_TRUE(globe.draws(*globe.row[2], RidgeGlobe::alongRow()));
+    EXPECT_TRUE(globe.drawsAlongRow(*model));
+    EXPECT_TRUE(globe.drawsAlongRow(*globe.row[2]));
 }
 
 // From high above, the ridge hides no tile whole, and the search rests unless it hides models.

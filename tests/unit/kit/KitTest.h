@@ -9,6 +9,7 @@
 #include "CameraGlobe.h"
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
+#include "PlanarMap.h"
 #include "TileFixture.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>

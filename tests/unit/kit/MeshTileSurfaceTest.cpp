@@ -5,17 +5,12 @@
 
 #include "KitTest.h"
 #include "TileSurfaceCases.h"
-#include "VpbMesh.h"
 
 #include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
 
 namespace osgAnalyticBin::test::surfaces {
 namespace {
-
-osg::Geometry& geometryOf(osg::MatrixTransform& tile) {
-    return *tile.getChild(0)->asGeode()->getDrawable(0)->asGeometry();
-}
 
 TEST(TileSurface, TellsSkirtsOfMeshesFromTheirSurface) {
     Random random(7);
@@ -45,7 +40,7 @@ TEST(TileSurface, KnowsHowLowTheEdgesOfMeshesAre) {
     mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
     mesh.low = mesh.high = 1000.0;
     const auto tile = makeVpbTile(mesh, random);
-    auto& vertices = static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray());
+    auto& vertices = verticesOf(*tile);
     const TileSurface flat = surfaceOf(*tile);
     vertices[16 * 17 + 8].z() -= 300.0f;  // in the middle of the northern edge
     vertices[8 * 17 + 8].z() -= 5000.0f;  // in the middle of the tile
@@ -63,37 +58,33 @@ TEST(TileSurface, HoldsAllWhereSkirtsCannotBeTold) {
     Random random(9);
     VpbMesh mesh;
     mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
-    const auto holdsAll = [](osg::MatrixTransform& tile) {
-        const TileSurface surface = surfaceOf(tile);
-        EXPECT_EQ(surface.skirt, 0.0);
-        EXPECT_LE(surface.bin.bin().altitude().lower, -5000.0 + 10.0);
-        EXPECT_LE(metresOutside(surface.bin, samplesOf(drawnTriangles(tile).surface), kEllipsoid),
-                  surface.bin.margin());
-        for (const double low : surface.edgeLow) EXPECT_LE(low, surface.bin.bin().altitude().lower);
-    };
     mesh.low = mesh.high = 0.0;
-    auto tile = makeVpbTile(mesh, random);
-    ASSERT_NEAR(surfaceOf(*tile).skirt, mesh.skirt, 4.0);
-
-    geometryOf(*tile).setTexCoordArray(0, nullptr);
-    holdsAll(*tile);
-    // one skirt vertex moved sideways
-    tile = makeVpbTile(mesh, random);
-    static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray()).back().x() += 2000.0f;
-    holdsAll(*tile);
-    // a border vertex without a partner
-    tile = makeVpbTile(mesh, random);
-    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0)).back().y() = 0.513f;
-    holdsAll(*tile);
-    // texture coordinates beyond the tile
-    tile = makeVpbTile(mesh, random);
-    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0))[20].x() = 3.0f;
-    holdsAll(*tile);
-    // a triangle from a skirt to the middle of the tile
-    tile = makeVpbTile(mesh, random);
-    auto& triangles = static_cast<osg::DrawElementsUShort&>(*geometryOf(*tile).getPrimitiveSet(0));
-    for (const GLushort i : {GLushort{0}, GLushort{150}, static_cast<GLushort>(17 * 17 + 3)}) triangles.push_back(i);
-    holdsAll(*tile);
+    const auto verticesOf = [](osg::Geometry& drawn) -> osg::Vec3Array& {
+        return static_cast<osg::Vec3Array&>(*drawn.getVertexArray());
+    };
+    const auto texCoordsOf = [](osg::Geometry& drawn) -> osg::Vec2Array& {
+        return static_cast<osg::Vec2Array&>(*drawn.getTexCoordArray(0));
+    };
+    ASSERT_NEAR(surfaceOf(*makeVpbTile(mesh, random)).skirt, mesh.skirt, 4.0);
+    const std::pair<const char*, std::function<void(osg::Geometry&)>> spoilings[] = {
+        {"no texture coordinates", [&](auto& drawn) { drawn.setTexCoordArray(0, nullptr); }},
+        {"one skirt vertex moved sideways", [&](auto& drawn) { verticesOf(drawn).back().x() += 2000.0f; }},
+        {"a border vertex without a partner", [&](auto& drawn) { texCoordsOf(drawn).back().y() = 0.513f; }},
+        {"texture coordinates beyond the tile", [&](auto& drawn) { texCoordsOf(drawn)[20].x() = 3.0f; }},
+        {"a triangle from a skirt to the middle of the tile", [&](auto& drawn) {
+             auto& triangles = static_cast<osg::DrawElementsUShort&>(*drawn.getPrimitiveSet(0));
+             for (const unsigned int i : {0u, 150u, 17u * 17u + 3u}) triangles.push_back(static_cast<GLushort>(i));
+         }}};
+    for (const auto& [name, spoil] : spoilings) {
+        const auto tile = makeVpbTile(mesh, random);
+        spoil(geometryOf(*tile));
+        const TileSurface surface = surfaceOf(*tile);
+        EXPECT_EQ(surface.skirt, 0.0) << name;
+        EXPECT_LE(surface.bin.bin().altitude().lower, -5000.0 + 10.0) << name;
+        const auto samples = samplesOf(drawnTriangles(*tile).surface);
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << name;
+        for (const double low : surface.edgeLow) EXPECT_LE(low, surface.bin.bin().altitude().lower) << name;
+    }
 }
 
 TEST(TileSurface, FollowsFixedTransformsOnly) {
@@ -140,14 +131,10 @@ TEST(TileSurface, HoldsVerticesInTheFrameOfTheGlobeWhereTheyAreDrawn) {
     for (int trial = 0; trial < 50; ++trial) {
         const double south = random.uniform(-80.0, 80.0), west = random.uniform(-180.0, 180.0);
         const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-        for (int i = 0; i < 30; ++i) {
-            const osg::Vec3d place =
-                ecefDeg(south + random.uniform(0.0, 0.01), west + random.uniform(0.0, 0.01), random.uniform(0, 100));
-            vertices->push_back(osg::Vec3(place));
-        }
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        geometry->setVertexArray(vertices);
-        geometry->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 30));
+        for (int i = 0; i < 30; ++i)
+            vertices->push_back(osg::Vec3(
+                ecefDeg(south + random.uniform(0.0, 0.01), west + random.uniform(0.0, 0.01), random.uniform(0, 100))));
+        const auto geometry = makeGeometry(vertices, new osg::DrawArrays(GL_POINTS, 0, 30));
         const TileSurface surface = surfaceOf(*geometry);
         const osg::Matrixd view =
             osg::Matrixd::lookAt(ecefDeg(south, west, 200.0), osg::Vec3d((*vertices)[0]), osg::Vec3d(0, 0, 1));
@@ -196,10 +183,8 @@ struct OwnBox : osg::Drawable::ComputeBoundingBoxCallback {
 struct OwnDrawing : osg::Drawable::DrawCallback {};
 
 osg::ref_ptr<osg::Geometry> makeLine(osg::Geometry* line, const osg::Vec3& from, const osg::Vec3& to) {
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    vertices->push_back(from);
-    vertices->push_back(to);
-    line->setVertexArray(vertices);
+    const osg::Vec3 ends[] = {from, to};
+    line->setVertexArray(new osg::Vec3Array(2, ends));
     line->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
     return line;
 }
@@ -216,8 +201,7 @@ TEST(TileSurface, HoldsTheBoundOfWhatItsVerticesDoNotTell) {
     drawn->setDrawCallback(new OwnDrawing);
     const std::vector<osg::ref_ptr<osg::Node>> contents{new Lights, ofOtherClass, withBox, withInitialBound, drawn};
     for (std::size_t number = 0; number < contents.size(); ++number) {
-        const osg::ref_ptr<osg::Group> tile = new osg::Group;
-        tile->addChild(ground);
+        const auto tile = makeGroup({ground});
         const std::uint64_t without = surfaceFingerprint(*tile, osg::Matrixd());
         tile->addChild(contents[number]);
         const TileSurface surface = surfaceOf(*tile);
@@ -242,9 +226,7 @@ TEST(TileSurface, HoldsQuadsWhicheverDiagonalDividesThem) {
             const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
             for (const std::size_t i : {0U, 1U, 2U, 3U}) vertices->push_back(corner(i));
             if (mode == GL_QUAD_STRIP) std::swap((*vertices)[2], (*vertices)[3]);
-            const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-            geometry->setVertexArray(vertices);
-            geometry->addPrimitiveSet(new osg::DrawArrays(mode, 0, 4));
+            const auto geometry = makeGeometry(vertices, new osg::DrawArrays(mode, 0, 4));
             const TileSurface surface = tileSurface(*geometry, *kModel, osg::Matrixd::translate(around[0]), 1.0);
             const osg::Vec3d middle = (around[1] + around[3]) * 0.5;
             const double outside = metresOutside(surface.bin, {{middle.x(), middle.y(), middle.z()}}, kEllipsoid);
@@ -267,10 +249,7 @@ osg::ref_ptr<osg::Billboard> randomBillboard(osg::Billboard::Mode mode, bool isP
     for (int i = 0; i < 4; ++i) {
         const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
         for (int corner = 0; corner < 4; ++corner) vertices->push_back(any(50.0));
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        geometry->setVertexArray(vertices);
-        geometry->addPrimitiveSet(new osg::DrawArrays(GL_QUADS, 0, 4));
-        billboard->addDrawable(geometry, any(2000.0));
+        billboard->addDrawable(makeGeometry(vertices, new osg::DrawArrays(GL_QUADS, 0, 4)), any(2000.0));
     }
     return billboard;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// An application's models beside the tiles and in their files: when the kit looks at them in a frame, and when it
-// leaves them to OSG. Oracle: nodes that count how often they are asked.
+// When the kit looks at what is there in a frame, and when it leaves it to OSG: an application's models beside the
+// tiles and in their files (oracle: nodes that count how often they are asked), and tiles where bins gain nothing.
 
 #include "KitTest.h"
 
@@ -74,11 +74,8 @@ TEST(Models, BesideTilesBelowATransformAreLeftToOsg) {
 
 TEST(Models, InTheFileOfATileAreLeftToOsg) {
     GlobeWithModels globe;
-    osg::ref_ptr<osg::Group> level = new osg::Group;
-    level->addChild(makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0));
-    level->addChild(globe.models.group);
-    globe.tiles[19]->setRange(0, 1e9f, 1e10f);
-    globe.tiles[19]->setRange(1, 0.0f, 1e9f);
+    const auto level = makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), globe.models.group});
+    setFinerWithin(*globe.tiles[19], 1e9f);
     putBelow(*globe.tiles[19], level);
     globe.install();
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
@@ -102,52 +99,28 @@ TEST(Models, InAFileThatAddsToATileAreLeftToOsg) {
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
 }
 
-struct TileComes {
-    const char* name;
-    std::function<void(GlobeWithModels&, osg::Group&)> come;  // to a model
-};
-
-class TilesAmongModels : public testing::TestWithParam<TileComes> {};
-
-TEST_P(TilesAmongModels, AreLookedForAfterTheNextUpdate) {
-    GlobeWithModels globe;
-    globe.root->addChild(globe.models.group);
-    globe.install(declaredHorizon());
-    ASSERT_FALSE(globe.isLookedAt(*globe.models.model));
-    GetParam().come(globe, *globe.models.model);
-    globe.settle();
-    EXPECT_TRUE(globe.isLookedAt(*globe.models.model));
+// Also below a class of the application's.
+TEST(TilesAmongModels, AreLookedForAfterTheNextUpdate) {
+    for (const std::string way : {"added", "installed there", "added below"}) {
+        GlobeWithModels globe;
+        osg::Group& model = *globe.models.model;
+        globe.root->addChild(globe.models.group);
+        globe.install(declaredHorizon());
+        ASSERT_FALSE(globe.isLookedAt(*globe.models.model));
+        const auto tile = makeGroup({makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0)});
+        const osg::ref_ptr<osg::Group> between = new Model;
+        if (way == "installed there") {
+            model.addChild(makePaged(tile, "never.osgb"));
+            installBins(*globe.root);
+        } else {
+            EXPECT_EQ(addTile(*globe.root, *tile), 1u);
+            between->addChild(tile);
+            model.addChild(way == "added" ? tile : between);
+        }
+        globe.settle();
+        EXPECT_TRUE(globe.isLookedAt(*globe.models.model)) << way;
+    }
 }
-
-osg::ref_ptr<osg::Group> smallTile() {
-    osg::ref_ptr<osg::Group> tile = new osg::Group;
-    tile->addChild(makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0));
-    return tile;
-}
-
-INSTANTIATE_TEST_SUITE_P(Models, TilesAmongModels,
-                         testing::Values(TileComes{"Added",
-                                                   [](GlobeWithModels& globe, osg::Group& model) {
-                                                       const osg::ref_ptr<osg::Group> tile = smallTile();
-                                                       EXPECT_EQ(addTile(*globe.root, *tile), 1u);
-                                                       model.addChild(tile);
-                                                   }},
-                                         TileComes{"InstalledThere",
-                                                   [](GlobeWithModels& globe, osg::Group& model) {
-                                                       const osg::ref_ptr<osg::PagedLOD> tile =
-                                                           makePaged(smallTile().get(), "never.osgb");
-                                                       model.addChild(tile);
-                                                       installBins(*globe.root);
-                                                   }},
-                                         TileComes{"BelowAClassOfTheApplications",
-                                                   [](GlobeWithModels& globe, osg::Group& model) {
-                                                       const osg::ref_ptr<osg::Group> tile = smallTile();
-                                                       EXPECT_EQ(addTile(*globe.root, *tile), 1u);
-                                                       const osg::ref_ptr<osg::Group> between = new Model;
-                                                       between->addChild(tile);
-                                                       model.addChild(between);
-                                                   }}),
-                         [](const auto& tested) { return tested.param.name; });
 
 // A node that counts the kit's visits.
 class Visited : public osg::Group {
@@ -164,8 +137,7 @@ struct LevelWithModels : MeshGlobe {
     LevelWithModels(int tile, osg::Group* first, osg::Group* second) : still(first), moving(second) {
         osg::PagedLOD& paged = *tiles[static_cast<std::size_t>(tile)];
         const double west = -180.0 + 45.0 * (tile % 8), south = -90.0 + 45.0 * (tile / 8);
-        paged.setRange(0, 1e9f, 1e10f);
-        paged.setRange(1, 0.0f, 1e9f);
+        setFinerWithin(paged, 1e9f);
         level->addChild(makeMeshTile(extentsDeg(south, south + 45, west, west + 45), 0.0));
         putBelow(paged, level);
         installBins(*root);
@@ -201,37 +173,139 @@ TEST(Models, ThatGetANewPartOfTheSameBoundAreReadAgain) {
     EXPECT_FALSE(globe.draws(*globe.still, MeshGlobe::fromAbove()));
     const osg::ref_ptr<osg::Node> part =
         osg::clone(globe.still->getChild(0), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES);
-    part->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    ignoreDepth(*part);
     globe.still->addChild(part);
     EXPECT_TRUE(globe.draws(*globe.still, MeshGlobe::fromAbove()));
 }
 
-// Notes who refers to other models while a model is drawn.
-struct ReferenceReader : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        references.clear();
-        for (const auto& other : others) references.push_back(other->referenceCount());
-        traverse(node, nv);
-    }
-    std::vector<osg::ref_ptr<osg::Node>> others;
-    std::vector<int> references;
-};
-
 // osg::AutoTransform changes its sphere before OSG tests it.
 TEST(Models, OutOfViewAreLeftOutAtOnceUnlessTheyMayChange) {
     GlobeWithModels globe;
-    const osg::ref_ptr<osg::MatrixTransform> seen = makeTower(ecefDeg(22.5, -22.5, 1000.0));
-    const osg::ref_ptr<ReferenceReader> reader = new ReferenceReader;
     const osg::Vec3d aboveEye = ecefDeg(22.5, -22.5, 2e6);
-    reader->others.emplace_back(makeTower(aboveEye));
-    reader->others.emplace_back(new osg::AutoTransform);
-    dynamic_cast<osg::AutoTransform&>(*reader->others[1]).setPosition(aboveEye);
-    reader->others[1]->asGroup()->addChild(makeTower({}));
-    seen->setCullCallback(reader);
-    globe.root->addChild(seen);
-    for (const auto& other : reader->others) globe.root->addChild(other);
+    const osg::ref_ptr<osg::AutoTransform> turning = new osg::AutoTransform;
+    turning->setPosition(aboveEye);
+    turning->addChild(makeTower({}));
+    const osg::ref_ptr<osg::MatrixTransform> still = makeTower(aboveEye),
+                                             seen = makeTower(ecefDeg(22.5, -22.5, 1000.0));
+    // who refers to the others while a model is drawn
+    std::vector<int> references;
+    seen->setCullCallback(new Before([&](auto&) {
+        references = {still->referenceCount(), turning->referenceCount()};
+    }));
+    for (const osg::ref_ptr<osg::Node>& child : {osg::ref_ptr<osg::Node>(seen), {still}, {turning}})
+        globe.root->addChild(child);
     globe.install();
-    EXPECT_EQ(reader->references, std::vector<int>({2, 3}));
+    EXPECT_EQ(references, std::vector<int>({2, 3}));
+}
+
+// For its visits OSG traverses what is kept: nothing is drawn directly.
+class DerivedVisitor : public osgUtil::CullVisitor {};
+
+struct RestingGlobe : MeshGlobe {
+    explicit RestingGlobe(const CullOptions& options, osgUtil::CullVisitor* by = new DerivedVisitor) {
+        visitor = by;
+        install(options);
+    }
+    void install(const CullOptions& options) {
+        installBins(*root, options);
+        update(*root);
+    }
+    // Whether bins are tested in one of so many views.
+    bool testsBins(const CullView& view, unsigned int views) {
+        unsigned int tested = 0;
+        for (unsigned int i = 0; i < views; ++i) {
+            last = cull(*scene, view, *visitor, ++frame);
+            tested += BinStatistics::of(*visitor).getCounts().tested;
+        }
+        return tested > 0;
+    }
+    // After many views.
+    bool rests(const CullView& view) {
+        (void)testsBins(view, 100);
+        // some views in a row, of which one may look whether bins gain something
+        return !testsBins(view, 8) || !testsBins(view, 8);
+    }
+    CullResult last;
+};
+
+// Of the whole globe, both sides: spheres and bins are in view.
+CullView ofAllTiles() {
+    return CullView::lookAt(osg::Vec3d(1e8, 0, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1), 20.0);
+}
+
+TEST(Rest, BinsThatGainNothingAreNotTested) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+    EXPECT_EQ(globe.last.drawn.size(), globe.tiles.size());
+}
+
+TEST(Rest, EndsWithinAFewDozenViewsWhereBinsGain) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    ASSERT_TRUE(globe.rests(ofAllTiles()));
+    // in a corner of a tile, which the spheres of three others reach
+    EXPECT_TRUE(globe.testsBins(downTo(4, -4), 33));
+    EXPECT_FALSE(globe.rests(downTo(4, -4)));
+}
+
+TEST(Rest, EndsWhenTilesCome) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    ASSERT_TRUE(globe.rests(ofAllTiles()));
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0);
+    ASSERT_TRUE(addTile(*globe.root, *tile));
+    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
+}
+
+TEST(Rest, IsForEachOfManyDatabases) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    const auto all = makeGroup({globe.root});
+    for (int i = 0; i < 99; ++i) {
+        const MeshGlobe other;
+        installBins(*other.root, optionsOf("horizon=off"));
+        all->addChild(other.root);
+    }
+    globe.scene = all;
+    update(*all);
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+}
+
+TEST(Rest, IsNotForTilesThatTheHorizonHides) {
+    EXPECT_FALSE(RestingGlobe(declaredHorizon()).rests(ofAllTiles()));
+}
+
+TEST(Rest, IsNotForMeshesThatAreDrawnDirectly) {
+    EXPECT_FALSE(RestingGlobe(optionsOf("horizon=off"), new osgUtil::CullVisitor).rests(ofAllTiles()));
+}
+
+// OSG's spheres are those of the terrain without it.
+TEST(Rest, IsNotForTerrainWithAVerticalScale) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    for (const auto& tile : globe.tiles) terrain->addChild(tile);
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    globe.root->addChild(terrain);
+    globe.install(optionsOf("horizon=off"));
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+    terrain->setVerticalScale(2.0f);
+    update(*globe.root);
+    EXPECT_FALSE(globe.rests(ofAllTiles()));
+}
+
+TEST(Rest, IsNotForVisitorsThatWatchTiles) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    BinStatistics::of(*globe.visitor).setTileByTile(true);
+    EXPECT_FALSE(globe.rests(ofAllTiles()));
+}
+
+// The application's sphere lies: OSG would leave the tile out.
+TEST(Rest, IsNotForTilesThatOsgWouldLeaveOut) {
+    RestingGlobe globe(optionsOf("horizon=off"));
+    osg::PagedLOD& tile = *globe.tiles[19];
+    tile.setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+    tile.setCenter(osg::Vec3d(0, 0, 3e8));
+    tile.setRadius(1.0);
+    EXPECT_FALSE(globe.rests(ofAllTiles()));
+    EXPECT_EQ(globe.last.drawn.size(), globe.tiles.size());
 }
 
 }  // namespace

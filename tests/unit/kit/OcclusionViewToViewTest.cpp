@@ -17,13 +17,11 @@ TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
     // the lowest eye that sees the tile behind the ridge, by what is found for one view alone
     double lowest = 1000.0, highest = 40000.0;
     while (highest > 1.0001 * lowest) {
-        RidgeGlobe globe;
-        installBins(*globe.root, withOcclusion());
+        InstalledRidge globe;
         const double middle = 0.5 * (lowest + highest);
         (globe.drawsFarTile(RidgeGlobe::alongRow(middle)) ? highest : lowest) = middle;
     }
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     for (const double step : {1.0, 5.0, 20.0, 60.0, 200.0, 500.0}) {
         for (int start = 0; start < 20; ++start) {
             for (int i = 0; i < 20; ++i) {
@@ -42,8 +40,7 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
     Random random(1712);
     int hidden = 0;
     for (int flight = 0; flight < 10; ++flight) {
-        RidgeGlobe globe(8000.0, 5);
-        installBins(*globe.root, withOcclusion());
+        InstalledRidge globe(8000.0, 5);
         const double fov = random.uniform(2.0, 12.0), start = random.uniform(-0.2, 0.4);
         double north = random.uniform(-0.2, 0.4);
         for (int i = 0; i < 20; ++i) {
@@ -51,8 +48,7 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
             const CullView view =
                 CullView::lookAt(ecefDeg(start, 0.1, 1000.0), ecefDeg(start + north, 1.1, 1000.0), {1, 0, 0}, fov);
             if (globe.drawsFarTile(view)) continue;
-            RidgeGlobe alone(8000.0, 5);
-            installBins(*alone.root, withOcclusion());
+            InstalledRidge alone(8000.0, 5);
             EXPECT_FALSE(alone.drawsFarTile(view)) << "flight " << flight << ", view " << i;
             hidden += alone.counts().occluded > 0 ? 1 : 0;
         }
@@ -62,8 +58,7 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
 
 // The views with which what is found anew begins to serve. A search takes longer than all other culling.
 std::vector<int> beginningsIn(const std::function<CullView(int)>& view) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
     std::shared_ptr<const CoveredPicture> last;
     std::vector<int> beginnings;
@@ -104,8 +99,7 @@ TEST(TerrainOcclusion, ServesNoViewsThatAreLongAfterItsSearch) {
 // The next search is made in another thread, and what is found is used when it is needed, not when it is ready.
 TEST(TerrainOcclusion, IsTheSameInEachFlight) {
     const auto hiddenInFlight = [] {
-        RidgeGlobe globe;
-        installBins(*globe.root, withOcclusion());
+        InstalledRidge globe;
         std::vector<unsigned int> hidden;
         for (int i = 0; i < 200; ++i) {
             const double east = 0.1 + 1e-5 * i, north = 0.1 + 2e-4 * i;
@@ -122,16 +116,14 @@ TEST(TerrainOcclusion, IsTheSameInEachFlight) {
 
 // Compares a flight over tiles that leave the view one after the other with a new search for each view.
 TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
-    RidgeGlobe globe(8000.0, 5);
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe(8000.0, 5);
     int hidden = 0;
     for (int i = 0; i < 400; ++i) {
         const double east = 0.05 + 7e-4 * i, altitude = 1000.0 + 5.0 * i;
         const CullView view = eastward(east, altitude);
         const bool isDrawn = globe.drawsFarTile(view);
         if (i % 8 != 0) continue;
-        RidgeGlobe alone(8000.0, 5);
-        installBins(*alone.root, withOcclusion());
+        InstalledRidge alone(8000.0, 5);
         const bool isDrawnAlone = alone.drawsFarTile(view);
         hidden += isDrawnAlone ? 0 : 1;
         EXPECT_TRUE(isDrawn || !isDrawnAlone) << "view " << i;
@@ -177,10 +169,6 @@ TEST(TerrainOcclusion, ForgetsARidgeOutOfViewOnceItsPlaceIsInViewAgain) {
     osg::Node& leaf = *addTile(*globe.root, behind, makeMeshTile(behind, 0.0).release());
     addTile(*globe.root, rest, makePaged(makeMeshTile(rest, 0.0), "no.osgb").release());
     installBins(*globe.root, withOcclusion());
-    const auto showFiner = [&ridge](bool isShown) {
-        ridge.setRange(0, isShown ? 1e9f : 0.0f, 1e10f);
-        ridge.setRange(1, 0.0f, isShown ? 1e9f : 0.0f);
-    };
     // with the slope of its lower edge
     const auto eastward = [](double lowest, double fovDeg) {
         const osg::Vec3d eye = ecefDeg(0.1, 0.1, 1000.0), up = eye / eye.length();
@@ -189,10 +177,10 @@ TEST(TerrainOcclusion, ForgetsARidgeOutOfViewOnceItsPlaceIsInViewAgain) {
         return CullView::lookAt(eye, eye + east + up * slope, up, fovDeg);
     };
     const CullView level = eastward(-0.019, 30.0), above = eastward(0.3, 10.0);
-    showFiner(false);
+    setFinerWithin(ridge, 0.0f);
     for (int i = 0; i < 2; ++i) EXPECT_FALSE(globe.draws(leaf, level)) << i;
     (void)globe.draws(leaf, above);
-    showFiner(true);
+    setFinerWithin(ridge, 1e9f);
     EXPECT_TRUE(globe.draws(leaf, level));
 }
 

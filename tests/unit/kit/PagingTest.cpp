@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD. How long the pager
-// keeps those out of view: its own rule, and CullOptions::expiry; time is simulated.
+// keeps those out of view: its own rule, and CullOptions::expiry; time is simulated. And tiles that might be shared: by
+// osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they have read.
 
 #include "CountedReads.h"
 #include "KitTest.h"
@@ -14,9 +15,7 @@ namespace osgAnalyticBin::test {
 namespace {
 
 namespace fs = std::filesystem;
-using core::GeodeticBin;
-
-const AnalyticBin kPagedBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+const AnalyticBin kPagedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 
 osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -26,21 +25,29 @@ osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     return paged;
 }
 
-osgDB::Options* optionsOf(osg::PagedLOD& paged) {
+osgDB::Options* readOptionsOf(osg::PagedLOD& paged) {
     return dynamic_cast<osgDB::Options*>(paged.getDatabaseOptions());
 }
 
 class Paging : public ::testing::Test {
 protected:
     void SetUp() override {
-        osg::ref_ptr<osg::Group> children = new osg::Group;
-        children->addChild(makePagedTile("grandchildren.osgb"));
-        ASSERT_TRUE(osgDB::writeNodeFile(*children, file("children.osgb")));
+        ASSERT_TRUE(osgDB::writeNodeFile(*makeGroup({makePagedTile("grandchildren.osgb")}), file("children.osgb")));
         _root->addChild(_paged);
     }
     [[nodiscard]] std::string file(const std::string& name) const { return _folder / name; }
 
-    osg::ref_ptr<osg::Node> readChildren() { return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged)); }
+    osg::ref_ptr<osg::Node> readChildren() {
+        return osgDB::readRefNodeFile(file("children.osgb"), readOptionsOf(*_paged));
+    }
+    // A tile below a transform.
+    osg::ref_ptr<osg::PagedLOD> addMoved() {
+        const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+        osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+        moved->addChild(tile);
+        _root->addChild(moved);
+        return tile;
+    }
 
     TemporaryFolder _folder;
     osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
@@ -49,21 +56,19 @@ protected:
 
 TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     _root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
-    CullOptions exact;
-    exact.method = Method::Exact;
-    installBins(*_root, exact);
+    installBins(*_root, by(Method::Exact));
     const osg::ref_ptr<osg::Node> children = readChildren();
     ASSERT_TRUE(children);
     auto* tile = dynamic_cast<osg::PagedLOD*>(children->asGroup()->getChild(0));
     ASSERT_NE(tile, nullptr);
-    auto* callback = dynamic_cast<AnalyticBinCullCallback*>(tile->getCullCallback());
+    const auto* const callback = installedOn(*tile);
     ASSERT_NE(callback, nullptr);
     EXPECT_EQ(callback->getBin(), kPagedBin);
     EXPECT_EQ(callback->getCullOptions().method, Method::Exact);
     EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
     EXPECT_TRUE(tile->getCullingActive());
-    ASSERT_NE(optionsOf(*tile), nullptr);
-    EXPECT_NE(optionsOf(*tile)->getReadFileCallback(), nullptr);
+    ASSERT_NE(readOptionsOf(*tile), nullptr);
+    EXPECT_NE(readOptionsOf(*tile)->getReadFileCallback(), nullptr);
 }
 
 // As OSG has it: the options' own comes before the Registry's.
@@ -76,7 +81,7 @@ TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
         osgDB::Registry::instance()->setReadFileCallback(registrys);
         installBins(*_root);
         installBins(*_root);  // twice must not chain twice
-        EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
+        EXPECT_EQ(readOptionsOf(*_paged)->getOptionString(), "their own=option");
         const osg::ref_ptr<osg::Node> children = readChildren();
         osgDB::Registry::instance()->setReadFileCallback(nullptr);
         ASSERT_TRUE(children);
@@ -88,41 +93,34 @@ TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
 }
 
 AnalyticBinCullCallback* firstCallback(osg::Node* file) {
-    return file ? dynamic_cast<AnalyticBinCullCallback*>(file->asGroup()->getChild(0)->getCullCallback()) : nullptr;
+    return file ? installedOn(*file->asGroup()->getChild(0)) : nullptr;
 }
 
 TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
-    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
-    const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
-    moved->addChild(tile);
-    _root->addChild(moved);
+    const osg::ref_ptr<osg::PagedLOD> tile = addMoved();
     // the same file, in two places
     _paged->setDatabasePath(_folder.path());
     tile->setDatabasePath(_folder.path());
     ASSERT_EQ(_paged->getDatabasePath() + _paged->getFileName(1), file("children.osgb"));
     installBins(*_root);
-    const osg::ref_ptr<osg::Node> here = readChildren();
-    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*tile));
-    ASSERT_NE(firstCallback(here), nullptr);
-    ASSERT_NE(firstCallback(there), nullptr);
+    const osg::ref_ptr<osg::Node> here = readChildren(),
+                                  there = osgDB::readRefNodeFile(file("children.osgb"), readOptionsOf(*tile));
+    ASSERT_TRUE(firstCallback(here) && firstCallback(there));
     EXPECT_TRUE(firstCallback(here)->getLocalToEcef().isIdentity());
     EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
-    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
-    const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+    const osg::ref_ptr<osg::PagedLOD> tile = addMoved();
     _paged->setDatabasePath("http://server/here");
     tile->setDatabasePath("http://server/there");
-    moved->addChild(tile);
-    _root->addChild(moved);
     const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache(_folder / "cache");
     const std::string copy = cache->createCacheFileName(tile->getDatabasePath() + "children.osgb");
     fs::create_directories(fs::path(copy).parent_path());
     fs::copy(file("children.osgb"), copy);
     installBins(*_root);
     osgDB::Registry::instance()->setFileCache(cache);
-    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(copy, optionsOf(*tile));
+    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(copy, readOptionsOf(*tile));
     osgDB::Registry::instance()->setFileCache(nullptr);
     ASSERT_NE(firstCallback(there), nullptr);
     EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
@@ -131,10 +129,10 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
 TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
     const osg::ref_ptr<osg::PagedLOD> other = makePagedTile("other.osgb");
     _root->addChild(other);
-    installBins(*_root);
-    EXPECT_EQ(_paged->getDatabaseOptions(), other->getDatabaseOptions());
-    installBins(*_root);
-    EXPECT_EQ(_paged->getDatabaseOptions(), other->getDatabaseOptions());
+    for (int i = 0; i < 2; ++i) {
+        installBins(*_root);
+        EXPECT_EQ(_paged->getDatabaseOptions(), other->getDatabaseOptions());
+    }
 }
 
 TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
@@ -142,12 +140,12 @@ TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
     std::ifstream whole(file("children.osgb"), std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
     ASSERT_GT(bytes.size(), 500u);
-    EXPECT_FALSE(osgDB::readRefNodeFile(file("absent.osgb"), optionsOf(*_paged)));
+    EXPECT_FALSE(osgDB::readRefNodeFile(file("absent.osgb"), readOptionsOf(*_paged)));
     for (std::size_t length = 0; length + 1 < bytes.size(); length += 1 + bytes.size() / 97) {
         // a new name each time: a file that failed is left alone for a while
         const std::string cut = file("cut_" + std::to_string(length) + ".osgb");
         std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
-        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(cut, optionsOf(*_paged));
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(cut, readOptionsOf(*_paged));
         EXPECT_FALSE(node) << "cut after " << length << " of " << bytes.size() << " bytes";
     }
 }
@@ -175,9 +173,8 @@ osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> file
 }
 
 CullOptions withExpiry(double seconds, Method method = Method::Quadratic) {
-    CullOptions options;
+    CullOptions options = by(method);
     options.expiry = seconds;
-    options.method = method;
     return options;
 }
 
@@ -239,6 +236,138 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
         ASSERT_TRUE(flight.load(lookDown(+1)));
         EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
     }
+}
+
+const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+
+osg::ref_ptr<osg::PagedLOD> makeCachedTile(const std::string& fileName) {
+    osg::ref_ptr<osg::PagedLOD> paged = makePaged(new osg::Group, fileName);
+    setStoredBin(*paged, kCachedBin);
+    return paged;
+}
+
+// The callback of the tile in what was read from "children.osgb", under any number of groups.
+AnalyticBinCullCallback* callbackIn(osg::Node* node) {
+    while (node && !dynamic_cast<osg::PagedLOD*>(node)) node = node->asGroup()->getChild(0);
+    return node ? installedOn(*node) : nullptr;
+}
+
+class ObjectCache : public ::testing::Test {
+protected:
+    void SetUp() override {
+        ASSERT_TRUE(osgDB::writeNodeFile(*makeGroup({makeCachedTile("grandchildren.osgb")}), _file));
+    }
+    void TearDown() override { osgDB::Registry::instance()->clearObjectCache(); }
+
+    // Options of a tile below a globe whose read callback is `reader`.
+    osg::ref_ptr<osgDB::Options> pagingOptions(osgDB::Options::CacheHintOptions hint,
+                                               const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel(),
+                                               const CullOptions& cullOptions = {}) {
+        const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
+        own->setObjectCacheHint(hint);
+        own->setReadFileCallback(_reader);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid));
+        const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
+        tile->setDatabaseOptions(own);
+        root->addChild(tile);
+        installBins(*root, cullOptions);
+        return dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions());
+    }
+
+    TemporaryFolder _folder;
+    const std::string _file = _folder / "children.osgb";
+    osg::ref_ptr<osgDB::ReadFileCallback> _reader = new CountedReads;
+};
+
+// They outlive what belongs to an application.
+TEST_F(ObjectCache, NothingOfOursIsInOsgsCaches) {
+    const osg::ref_ptr<osgDB::Options> plain = new osgDB::Options;
+    plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    for (const bool isRead : {false, true}) {
+        osgDB::Registry::instance()->clearObjectCache();
+        _reader = isRead ? new CountedReads : nullptr;
+        osg::ref_ptr<osgDB::Options> options = pagingOptions(osgDB::Options::CACHE_ALL);
+        const osg::observer_ptr<osgDB::ReadFileCallback> ours = options->getReadFileCallback();
+        osg::ref_ptr<osg::Node> some = osgDB::readRefNodeFile(_file, options),
+                                others = osgDB::readRefNodeFile(_file, options);
+        ASSERT_TRUE(callbackIn(some) && callbackIn(others));
+        EXPECT_NE(callbackIn(some), callbackIn(others));
+        EXPECT_FALSE(osgDB::Registry::instance()->getObjectCache()->getRefFromObjectCache(_file, plain));
+        options = nullptr;
+        some = others = nullptr;
+        EXPECT_FALSE(ours.valid()) << isRead;
+    }
+}
+
+// The Registry is destroyed after an application's statics.
+TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto end = [this] {
+        static osg::ref_ptr<osg::Node> kept;
+        static const std::vector<int> applications{1, 2, 3};
+        struct Reader : osgDB::ReadFileCallback {
+            ~Reader() override {
+                if (applications.size() != 3) std::abort();
+            }
+        };
+        const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
+        own->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+        own->setReadFileCallback(new Reader);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
+        tile->setDatabaseOptions(own);
+        root->addChild(tile);
+        installBins(*root);
+        kept = osgDB::readRefNodeFile(_file, static_cast<osgDB::Options*>(tile->getDatabaseOptions()));
+        tile->addChild(kept);
+        kept = root;
+        std::exit(callbackIn(tile) ? 0 : 1);
+    };
+    EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {
+    const osg::ref_ptr<osgDB::Options> plain = new osgDB::Options;
+    plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    const osg::ref_ptr<osg::Node> before = osgDB::readRefNodeFile(_file, plain);
+    const osg::ref_ptr<osg::Node> ours = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
+    EXPECT_NE(callbackIn(ours), nullptr);
+    EXPECT_EQ(callbackIn(before), nullptr);
+    EXPECT_EQ(osgDB::readRefNodeFile(_file, plain), before);
+}
+
+TEST_F(ObjectCache, InstallationsShareNothing) {
+    const auto read = [this](const osg::ref_ptr<osgDB::Options>& options) {
+        return osgDB::readRefNodeFile(_file, options);
+    };
+    constexpr auto kHint = osgDB::Options::CACHE_ALL;
+    const auto marsOptions = pagingOptions(kHint, osg::EllipsoidModel(3396190.0, 3376200.0));
+    const auto earth = read(pagingOptions(kHint)), twin = read(pagingOptions(kHint)), planet = read(marsOptions),
+               other = read(pagingOptions(kHint, osg::EllipsoidModel(), by(Method::Exact))), again = read(marsOptions);
+    ASSERT_TRUE(earth && twin && planet && other);
+    EXPECT_NE(earth, twin);
+    EXPECT_NE(callbackIn(earth)->getRadiiText(), "3396190 3376200");
+    for (const auto& node : {planet, again}) EXPECT_EQ(callbackIn(node)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(callbackIn(earth)->getCullOptions().method, Method::Quadratic);
+    EXPECT_EQ(callbackIn(other)->getCullOptions().method, Method::Exact);
+}
+
+// Others may draw it.
+TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsGetsNoBins) {
+    struct Keeper : osgDB::ReadFileCallback {
+        osgDB::ReaderWriter::ReadResult readNode(const std::string&, const osgDB::Options*) override {
+            return kept.get();
+        }
+        osg::ref_ptr<osg::Node> kept;
+    };
+    const osg::ref_ptr<Keeper> keeper = new Keeper;
+    keeper->kept = osgDB::readRefNodeFile(_file);
+    _reader = keeper;
+    const auto scene = makeGroup({keeper->kept});
+    for (const auto hint : {osgDB::Options::CACHE_NONE, osgDB::Options::CACHE_ALL})
+        EXPECT_EQ(osgDB::readRefNodeFile(_file, pagingOptions(hint)), scene->getChild(0));
+    EXPECT_EQ(callbackIn(scene->getChild(0)), nullptr);
 }
 
 }  // namespace

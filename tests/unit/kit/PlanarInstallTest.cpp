@@ -5,7 +5,6 @@
 
 #include "KitTest.h"
 #include "PagedFlight.h"
-#include "PlanarMap.h"
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 enum class Callback { None, Planar, Geocentric };
 
 // Installs bins on a paged tile with this mesh. Returns: which callback the tile got.
-Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
+Callback installedOnMap(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
     const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "parts.osgb");
     root.removeChildren(0, root.getNumChildren());
     root.addChild(tile);
@@ -63,7 +62,7 @@ TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {
         map.isTerrain = row.isTerrain;
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(row.format, row.text);
         if (row.hasEllipsoid) root->setEllipsoidModel(new osg::EllipsoidModel);
-        EXPECT_EQ(installedOn(*root, map.mesh(1, 0, 0)), row.expected)
+        EXPECT_EQ(installedOnMap(*root, map.mesh(1, 0, 0)), row.expected)
             << row.format << ' ' << row.text << (row.isTerrain ? " terrain" : " mesh");
     }
 }
@@ -76,38 +75,11 @@ TEST(PlanarDatabase, LocatorsInDegreesArePlanarToo) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", "GEOGCS[\"WGS 84\"]");
     const osg::ref_ptr<osg::Node> tile = map.mesh(0, 0, 0);
     auto& locator = *dynamic_cast<osgTerrain::TerrainTile&>(*tile).getLocator();
-    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    EXPECT_EQ(installedOnMap(*root, tile), Callback::Planar);
     locator.setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
-    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    EXPECT_EQ(installedOnMap(*root, tile), Callback::Planar);
     locator.setCoordinateSystemType(osgTerrain::Locator::GEOCENTRIC);
-    EXPECT_NE(installedOn(*root, tile), Callback::Planar);
-}
-
-TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
-    for (const double latitude : {45.0, 0.3, 88.0, -30.0}) {
-        const osg::EllipsoidModel wgs84;
-        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-        for (const auto& [north, east] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}}) {
-            double x = 0, y = 0, z = 0;
-            wgs84.convertLatLongHeightToXYZ(osg::DegreesToRadians(latitude + 0.5 * north),
-                                            osg::DegreesToRadians(20.0 + 0.5 * east), 300.0, x, y, z);
-            vertices->push_back(osg::Vec3d(x, y, z));
-        }
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        geometry->setVertexArray(vertices);
-        geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 6));
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
-        EXPECT_EQ(installedOn(*root, geometry), Callback::None) << latitude;
-        root->setEllipsoidModel(new osg::EllipsoidModel);
-        EXPECT_EQ(installedOn(*root, geometry), Callback::Geocentric) << latitude;
-    }
-    // and a map at a northing that is nearly the earth's radius is no globe
-    PlanarMap map;
-    map.isTerrain = false;
-    map.origin.y() = 6340000.0;
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    EXPECT_EQ(installedOn(*root, map.mesh(2, 0, 0)), Callback::None);
+    EXPECT_NE(installedOnMap(*root, tile), Callback::Planar);
 }
 
 osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
@@ -117,27 +89,47 @@ osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
     return geometry;
 }
 
+TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
+    for (const double latitude : {45.0, 0.3, 88.0, -30.0}) {
+        std::vector<osg::Vec3> vertices;
+        for (const auto& [north, east] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}})
+            vertices.push_back(ecefDeg(latitude + 0.5 * north, 20.0 + 0.5 * east, 300.0));
+        const osg::ref_ptr<osg::Geometry> geometry = triangles(vertices);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+        EXPECT_EQ(installedOnMap(*root, geometry), Callback::None) << latitude;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOnMap(*root, geometry), Callback::Geocentric) << latitude;
+    }
+    // and a map at a northing that is nearly the earth's radius is no globe
+    PlanarMap map;
+    map.isTerrain = false;
+    map.origin.y() = 6340000.0;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    EXPECT_EQ(installedOnMap(*root, map.mesh(2, 0, 0)), Callback::None);
+}
+
 TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
     const osg::Vec3 a(0, 0, 0), b(100, 0, 0), c(0, 100, 0), up(0, 0, 50);
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
-    ASSERT_EQ(installedOn(*root, triangles({a, b, c})), Callback::Planar);
-    ASSERT_EQ(installedOn(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
-    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
-    EXPECT_EQ(installedOn(*root, triangles({a, b, a + up})), Callback::None) << "a wall";
+    ASSERT_EQ(installedOnMap(*root, triangles({a, b, c})), Callback::Planar);
+    ASSERT_EQ(installedOnMap(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, a + up})), Callback::None) << "a wall";
     const osg::Vec3 high(0, 0, 2e5f);
-    EXPECT_EQ(installedOn(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
+    EXPECT_EQ(installedOnMap(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
     const float nan = std::nanf("");
-    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
     PlanarMap far;
     far.origin.y() = 1.5e10;
     for (const bool isTerrain : {false, true}) {
         far.isTerrain = isTerrain;
-        EXPECT_EQ(installedOn(*root, far.mesh(0, 0, 0)), Callback::None) << "farther than latitudes reach";
+        EXPECT_EQ(installedOnMap(*root, far.mesh(0, 0, 0)), Callback::None) << "farther than latitudes reach";
     }
     const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
     moving->setDataVariance(osg::Object::DYNAMIC);
     moving->addChild(triangles({a, b, c}));
-    EXPECT_EQ(installedOn(*root, moving), Callback::None);
+    EXPECT_EQ(installedOnMap(*root, moving), Callback::None);
     // outside of paged files a mesh is no tile
     root->removeChildren(0, root->getNumChildren());
     root->addChild(triangles({a, b, c}));

@@ -7,7 +7,6 @@
 
 #include "KitTest.h"
 #include "TileSurfaceCases.h"
-#include "VpbMesh.h"
 
 #include <support/Planets.h>
 

@@ -139,8 +139,7 @@ LookTotals totalsOf(const Kind& kind, CameraGlobe& globe, std::uint64_t seed, Ne
 
 TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
     for (const Method method : {Method::Quadratic, Method::Exact}) {
-        CullOptions options;
-        options.method = method;
+        const CullOptions options = by(method);
         CameraGlobe globe(options);
         for (const Kind& kind : kKinds) {
             // what near and far planes cut off is kept: only the sides cull
@@ -260,8 +259,7 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1.0, 1e8);
     for (const double x : {3e7, 1e6, 3e7, 0.0}) {
         view.modelView = osg::Matrixd::lookAt(osg::Vec3d(x, 0, 0), osg::Vec3d(x - 1.0, 0, 0), osg::Vec3d(0, 0, 1));
-        cull(globe.root(), view, *visitor);
-        const Look look = globe.takeLooks().at(0);
+        const Look look = lookOf(globe, view, *visitor);
         EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << x;
         EXPECT_EQ(look.reached.size() < 128u, x > kEarthRadius) << x;
     }
@@ -436,7 +434,7 @@ TEST(DegenerateCameras, PlanesWithoutUnitLengthDecideNothing) {
     }
 }
 
-TEST(DegenerateCameras, ThatAreNoNumbersCullNothingByAnyMethod) {
+TEST(DegenerateCameras, OfZerosOrOfNoNumbersCullNothingByAnyMethod) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Sphere, Method::None}) {
         CameraGlobe globe(horizonOptions(method));
         Random random(92);
@@ -453,15 +451,9 @@ TEST(DegenerateCameras, ThatAreNoNumbersCullNothingByAnyMethod) {
                 }
             }
         }
-    }
-}
-
-TEST(DegenerateCameras, OfZerosCullNothing) {
-    CameraGlobe globe(horizonOptions());
-    const osg::Matrixd zero(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
-    Random random(94);
-    for (const CullView& view : {viewOf(zero, kPlain), viewOf(viewAtSample(globe, random), zero)}) {
-        for (const CullView& each : inAllModes(view)) EXPECT_EQ(lookOf(globe, each).reached.size(), globe.size());
+        const osg::Matrixd zero(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+        for (const CullView& view : {viewOf(zero, kPlain), viewOf(viewAtSample(globe, random), zero)})
+            for (const CullView& each : inAllModes(view)) EXPECT_EQ(lookOf(globe, each).reached.size(), globe.size());
     }
 }
 

@@ -36,9 +36,15 @@ struct RidgeGlobe : MeshGlobe {
         return CullView::lookAt(ecefDeg(0.1, 0.1, altitude), ecefDeg(0.1, 1.0, altitude), {1, 0, 0}, 30.0);
     }
     [[nodiscard]] bool drawsFarTile(const CullView& view = alongRow()) { return draws(*row[4], view); }
-    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
 
     std::vector<osg::ref_ptr<osg::PagedLOD>> row;
+};
+
+// With bins that look for what is hidden.
+struct InstalledRidge : RidgeGlobe {
+    explicit InstalledRidge(double ridgeHeight = 8000.0, int tilesInRow = 10) : RidgeGlobe(ridgeHeight, tilesInRow) {
+        installBins(*root, withOcclusion());
+    }
 };
 
 }  // namespace osgAnalyticBin::test

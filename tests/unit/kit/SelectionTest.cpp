@@ -10,17 +10,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-// Does something before its node is traversed.
-struct Before : osg::NodeCallback {
-    using Action = std::function<void(osgUtil::CullVisitor&)>;
-    explicit Before(Action what) : action(std::move(what)) {}
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        action(*nv->asCullVisitor());
-        traverse(node, nv);
-    }
-    const Action action;
-};
-
 // Models of the application's are before and behind the tiles. Tiles 18 and 19 are in view.
 struct ModelGlobe : MeshGlobe {
     ModelGlobe() {
@@ -64,8 +53,7 @@ TEST(Selection, AsksForTheMasksOfGroups) {
     model->addChild(makeTower(ecefDeg(22.0, -22.0, 0.0)));
     globe.root->addChild(model);
     file->addChild(makePaged(makeMeshTile(extentsDeg(0.0, 45.0, -90.0, -45.0), 0.0), "no.osgb"));
-    globe.tiles[18]->setRange(0, 1e9f, 1e10f);
-    globe.tiles[18]->setRange(1, 0.0f, 1e9f);
+    setFinerWithin(*globe.tiles[18], 1e9f);
     putBelow(*globe.tiles[18], file);
     installBins(*globe.root);
     const auto shows = [&](osg::Node& node) { return globe.draws(node, MeshGlobe::fromAbove(3e6)); };
@@ -105,10 +93,8 @@ TEST(Selection, HoldsWhatIsTakenAwayMeanwhile) {
 TEST(Selection, HoldsForTheVisitorThatItWasMadeFor) {
     const auto globeWith = [](const Before::Action& action) {
         MeshGlobe globe;
-        const osg::ref_ptr<osg::Group> file = new osg::Group;
-        file->addChild(makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), 0.0));
-        globe.tiles[19]->setRange(0, 1e5f, 1e10f);
-        globe.tiles[19]->setRange(1, 0.0f, 1e5f);
+        const auto file = makeGroup({makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), 0.0)});
+        setFinerWithin(*globe.tiles[19], 1e5f);
         putBelow(*globe.tiles[19], file);
         globe.tiles[18]->setNodeMask(1);
         const osg::ref_ptr<Before> callback = new Before(action);
@@ -134,7 +120,7 @@ TEST(Selection, HoldsForTheVisitorThatItWasMadeFor) {
 TEST(Selection, KnowsTheStatesAboveWhereItIsMadeAnew) {
     MeshGlobe globe;
     const osg::ref_ptr<osg::Group> above = new osg::Group;
-    above->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    ignoreDepth(*above);
     globe.root->replaceChild(globe.tiles[15], above);
     above->addChild(globe.tiles[15]);
     const osg::ref_ptr<Before> callback =

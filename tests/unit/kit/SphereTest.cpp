@@ -11,30 +11,22 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-osg::ref_ptr<osg::CoordinateSystemNode> globeWith(osg::Node* content) {
-    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-    globe->setEllipsoidModel(new osg::EllipsoidModel);
-    globe->addChild(content);
-    return globe;
-}
-
 // Tiles below a tree of plain groups.
-osg::ref_ptr<osg::Node> makeGroups(double south, double west, double height, double width, int levels) {
+osg::ref_ptr<osg::Node> makeTree(double south, double west, double height, double width, int levels) {
     if (levels == 0)
         return makePaged(makeMeshTile(extentsDeg(south, south + height, west, west + width), 0.0), "no.osgb");
     const osg::ref_ptr<osg::Group> group = new osg::Group;
     for (const double y : {south, south + height / 2}) {
         for (const double x : {west, west + width / 2}) {
-            group->addChild(makeGroups(y, x, height / 2, width / 2, levels - 1));
+            group->addChild(makeTree(y, x, height / 2, width / 2, levels - 1));
         }
     }
     return group;
 }
 
 TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
-    const auto globe = globeWith(makeGroups(-90.0, -180.0, 180.0, 360.0, 4));
-    std::string error;
-    ASSERT_EQ(installBins(*globe, *cullOptionsFromText("horizon=off", error)), 256u);
+    const auto globe = makeGlobe({makeTree(-90.0, -180.0, 180.0, 360.0, 4)});
+    ASSERT_EQ(installBins(*globe, optionsOf("horizon=off")), 256u);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     (void)cull(*globe, downTo(20.0, 30.0), *visitor);
     const BinCounts counts = BinStatistics::of(*visitor).getCounts();
@@ -43,8 +35,8 @@ TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
 }
 
 // An application's own bound of a group. What OSG leaves out by it hides nothing.
-struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
-    explicit OwnBound(const osg::BoundingSphere& sphere) : bound(sphere) {}
+struct FixedBound : osg::Node::ComputeBoundingSphereCallback {
+    explicit FixedBound(const osg::BoundingSphere& sphere) : bound(sphere) {}
     osg::BoundingSphere computeBound(const osg::Node&) const override { return bound; }
     const osg::BoundingSphere bound;
 };
@@ -59,7 +51,7 @@ TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
         if (hasCallback) group->setCullCallback(new osg::NodeCallback);
         globe.root->replaceChild(globe.tiles[19], group);
         group->addChild(globe.tiles[19]);
-        group->setComputeBoundingSphereCallback(new OwnBound(bound));
+        group->setComputeBoundingSphereCallback(new FixedBound(bound));
         installBins(*globe.root);
         CullView view = MeshGlobe::fromAbove();
         view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
@@ -122,8 +114,7 @@ TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
             scene->addChild(tile);
         }
         if (isInstalled) (void)installBins(*scene);
-        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-        return cull(*scene, view, *visitor).drawn.size();
+        return cull(*scene, view).drawn.size();
     };
     const CapturedNotes notes;
     for (const double latitude : {3.0, 11.0}) {
@@ -139,7 +130,7 @@ TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
 osg::ref_ptr<osg::PagedLOD> tileInEcef() {
     const osg::ref_ptr<osg::MatrixTransform> frame = makeMeshTile(extentsDeg(35, 36, 45, 46), 0.0);
     const osg::ref_ptr<osg::Node> mesh = frame->getChild(0);
-    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    auto& vertices = verticesOf(*mesh);
     for (osg::Vec3& vertex : vertices) vertex = osg::Vec3d(vertex) * frame->getMatrix();
     osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "no.osgb", 1.0f);
     setStoredBin(*tile, tileSurface(*mesh, osg::EllipsoidModel(), osg::Matrixd()).bin);
@@ -148,12 +139,7 @@ osg::ref_ptr<osg::PagedLOD> tileInEcef() {
 
 TEST(Spheres, LoseNoTileThatIsSmallerThanTheyAre) {
     for (const bool isFamily : {true, false}) {
-        const osg::ref_ptr<osg::CoordinateSystemNode> stock = new osg::CoordinateSystemNode,
-                                                      withBins = new osg::CoordinateSystemNode;
-        for (const auto& root : {stock, withBins}) {
-            root->setEllipsoidModel(new osg::EllipsoidModel);
-            root->addChild(tileInEcef());
-        }
+        const auto stock = makeGlobe({tileInEcef()}), withBins = makeGlobe({tileInEcef()});
         ASSERT_EQ(installBins(*withBins), 1u);
         if (!isFamily) withBins->addCullCallback(new osg::NodeCallback);
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -189,9 +175,7 @@ osg::ref_ptr<osg::Node> makeWall(const CullView& view, double halfSize, double a
 
 // The numbers of the globe's tiles that are drawn behind a wall.
 std::set<std::size_t> drawnBehind(osg::Node& wall, MeshGlobe& globe, const CullView& view) {
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->addChild(&wall);
-    scene->addChild(globe.root);
+    const auto scene = makeGroup({&wall, globe.root});
     const auto drawn = cull(*scene, view, *globe.visitor, ++globe.frame).drawn;
     std::set<std::size_t> numbers;
     for (std::size_t i = 0; i < globe.tiles.size(); ++i)

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
+// Tiles behind a ridge; and osgTerrain tiles that hide others. Which do, and what ends it: tests/scenes/ridge-*.scene,
+// terrain-*.scene. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
 #include "KitTest.h"
@@ -12,29 +13,24 @@ namespace {
 
 // Bins of the row reach up to 9000 m, for finer tiles; the mesh behind the ridge is at 0 m.
 TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
-    RidgeGlobe globe(3500.0);
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe(3500.0);
     osg::PagedLOD& far = *globe.row[4];
     const float never = 0.0f, always = 1e9f;
-    const auto setFinerWithin = [&far](float distance) {
-        far.setRange(0, distance, 1e10f);
-        far.setRange(1, 0.0f, distance);
-    };
     // what comes into view is looked for behind terrain from the next view on
     const auto drawsFarTileNow = [&globe] {
         (void)globe.drawsFarTile();
         return globe.drawsFarTile();
     };
     for (int i = 0; i < 3; ++i) {
-        setFinerWithin(never);
+        setFinerWithin(far, never);
         EXPECT_FALSE(drawsFarTileNow()) << i;
         // as OSG leaves the levels of what it culls
         EXPECT_NE(far.getFrameNumber(0), globe.frame);
-        setFinerWithin(always);
+        setFinerWithin(far, always);
         EXPECT_TRUE(globe.drawsFarTile()) << i;
     }
     // both may be drawn
-    setFinerWithin(never);
+    setFinerWithin(far, never);
     far.setRange(1, 0.0f, 1e10f);
     EXPECT_TRUE(globe.drawsFarTile());
     far.setRange(1, 0.0f, never);
@@ -83,7 +79,7 @@ TEST(TerrainOcclusion, HidesNoTileBelowWhichSomethingIgnoresDepth) {
         tile.setRange(0, 0.0f, 1e10f);
         tile.setRange(1, 0.0f, 1e10f);
         const osg::ref_ptr<osg::Node> sign = makeTower(ecefDeg(0.1, 0.9, 100.0));
-        if (ignoresDepth) drawableOf(*sign)->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        if (ignoresDepth) ignoreDepth(*drawableOf(*sign));
         putBelow(tile, sign);
         installBins(*globe.root, withOcclusion());
         EXPECT_EQ(globe.draws(*sign, RidgeGlobe::alongRow()), ignoresDepth);
@@ -102,24 +98,19 @@ TEST(TerrainOcclusion, HidesNoMeshByItsOwnHeightWhereMoreIsAdded) {
     const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(ecefDeg(0.1, 0.9, 0.0), 8500.0f);
     tower->setMatrix(tower->getMatrix() * osg::Matrixd::inverse(leaf->getMatrix()));
     leaf->addChild(tower);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(globe.draws(*tower, RidgeGlobe::alongRow())) << i;
-        update(*globe.root);
-    }
+    globe.expectDrawn(*tower, RidgeGlobe::alongRow(), true, 2);
     EXPECT_GE(globe.counts().occluded, 1u) << "other tiles";
 }
 
 TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     BinStatistics::of(*globe.visitor).setTileByTile(true);
     EXPECT_FALSE(globe.drawsFarTile());
     EXPECT_GE(globe.counts().occluded, 1u);
 }
 
 TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     BinStatistics& statistics = BinStatistics::of(*globe.visitor);
     EXPECT_FALSE(statistics.covered());
     EXPECT_FALSE(globe.drawsFarTile());
@@ -141,8 +132,7 @@ TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
 
 // More ways: tests/scenes/ridge-*.scene.
 TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     EXPECT_FALSE(globe.drawsFarTile());
     osg::PagedLOD& ridge = *globe.row[2];
     ridge.setFileName(1, "");
@@ -195,8 +185,7 @@ TEST(TerrainOcclusion, IsNotLookedForFromHighAboveIfLeftToItself) {
 
 // Other distances, and depth buffers: tests/scenes/ridge-near-planes.scene, ridge-coarse-depths.scene.
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     EXPECT_FALSE(globe.drawsFarTile());
     // through a plain that is cut away, the eye sees past the foot of the ridge into a pit
     RidgeGlobe pit;
@@ -259,7 +248,7 @@ TEST(TerrainOcclusion, LeavesRoomForPixelsThatAreNotSquare) {
 TEST(TerrainOcclusion, FindsTheGroundBelowTheEyeInMeshesOfDoubles) {
     for (const double height : {0.0, 3000.0}) {
         RidgeGlobe globe;
-        osg::Geometry& geometry = *drawableOf(*globe.row[0])->asGeometry();
+        osg::Geometry& geometry = geometryOf(*globe.row[0]);
         const osg::Vec3d up = ecefDeg(0.1, 0.1, height) - ecefDeg(0.1, 0.1, 0.0);
         const osg::ref_ptr<osg::Vec3dArray> doubles = new osg::Vec3dArray;
         for (const osg::Vec3& vertex : static_cast<const osg::Vec3Array&>(*geometry.getVertexArray()))
@@ -271,8 +260,7 @@ TEST(TerrainOcclusion, FindsTheGroundBelowTheEyeInMeshesOfDoubles) {
 }
 
 TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
-    RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion());
+    InstalledRidge globe;
     CullView view = RidgeGlobe::alongRow();
     view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
     EXPECT_FALSE(globe.drawsFarTile(view));
@@ -280,6 +268,91 @@ TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
     globe.visitor->setSmallFeatureCullingPixelSize(500.0F);
     (void)globe.drawsFarTile(view);
     EXPECT_EQ(globe.counts().occluded, 0u);
+}
+
+// A globe of osgTerrain tiles. Along the equator stand tiles of 0.2 degrees: a plain, and in the third tile a ridge,
+// which tile 4 lies behind. The eye is above the middle of tile 0.
+struct TerrainGlobe {
+    explicit TerrainGlobe(float heightOfFarTile = 0.0f) {
+        terrain->setEllipsoidModel(new osg::EllipsoidModel);
+        for (int i = 0; i < 32; ++i) {
+            const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
+            if (i != 20)
+                terrain->addChild(makeFlatTile(extentsDeg(south, south + 45.0, west, west + 45.0), 0.0f, 0.0f, 65));
+        }
+        terrain->addChild(makeFlatTile(extentsDeg(0.2, 45.0, 0.0, 45.0), 0.0f, 0.0f, 65));
+        for (int i = 0; i < 225; ++i) {
+            const float height = i == 2 ? 8000.0f : i == 4 ? heightOfFarTile : 0.0f;
+            row.push_back(makeFlatTile(extentsDeg(0.0, 0.2, 0.2 * i, 0.2 * i + 0.2), height));
+            terrain->addChild(row.back());
+        }
+    }
+
+    [[nodiscard]] bool drawsFarTile(double nearPlane = 1.0) {
+        CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1, 1.0, 1000.0), {1, 0, 0}, 30.0);
+        view.projection = osg::Matrixd::perspective(30.0, 1.0, nearPlane, 1e8);
+        update(*terrain);
+        return cull(*terrain, view, *visitor, ++frame).drawn.count(drawableOf(*row[4])) > 0;
+    }
+    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
+
+    osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    std::vector<osg::ref_ptr<osgTerrain::TerrainTile>> row;
+    osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    unsigned int frame = 0;
+};
+
+TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves) {
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::Auto));
+    int awaited = 0;
+    for (; awaited < 100 && globe.drawsFarTile(); ++awaited) continue;
+    EXPECT_GE(awaited, 1);
+    EXPECT_LT(awaited, 100);
+}
+
+// With a technique that the application vouches for, the horizon is used if the eye is surely above what is drawn. A
+// ridge hides nothing, because nobody knows its exact height.
+TEST(OccludingTerrainTiles, OfATechniqueThatIsVouchedForAreTheHorizonAlone) {
+    struct OtherTechnique : osgTerrain::GeometryTechnique {};
+    TerrainGlobe globe;
+    globe.terrain->setTerrainTechniquePrototype(new OtherTechnique);
+    CullOptions options = withOcclusion(OcclusionUse::On);
+    installBins(*globe.terrain, options);
+    const auto hiddenFrom = [&](double longitude, double altitude) {
+        const auto view = CullView::lookAt(ecefDeg(0.107, longitude, altitude), ecefDeg(0.107, longitude + 0.1, 0.0),
+                                           {1, 0, 0}, 60.0);
+        for (int i = 0; i < 2; ++i) {
+            update(*globe.terrain);
+            (void)cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
+        }
+        return globe.counts().hidden;
+    };
+    EXPECT_EQ(hiddenFrom(0.507, 9000.0), 0u);
+    options.techniqueMargin = 300.0;
+    setCullOptions(*globe.terrain, options);
+    EXPECT_GT(hiddenFrom(0.507, 8310.0), 0u);
+    EXPECT_EQ(hiddenFrom(0.507, 8290.0), 0u);
+    // the ridge ends at 0.6 degrees, and may overhang the plain by 300 m
+    EXPECT_GT(hiddenFrom(0.6 + 350.0 / 111320.0, 500.0), 0u);
+    EXPECT_EQ(hiddenFrom(0.6 + 290.0 / 111320.0, 500.0), 0u);
+    for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile());
+}
+
+// Through a plain that is cut away, the eye sees past the foot of the ridge into a pit.
+TEST(OccludingTerrainTiles, HideNothingWhereTheNearPlaneCutsThemAway) {
+    TerrainGlobe globe(-15000.0f);
+    // with bins as deep as the pit, so that nothing but the near plane shows it
+    for (std::size_t i = 0; i < 10; ++i) {
+        const double west = 0.2 * static_cast<double>(i);
+        setStoredBin(*globe.row[i],
+                     AnalyticBin(extentsDeg(0.0, 0.2, west, west + 0.2).withAltitude({-2e4, 9e3}), 10.0));
+    }
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_FALSE(globe.drawsFarTile(500.0));
+    EXPECT_TRUE(globe.drawsFarTile(6000.0));
+    EXPECT_TRUE(globe.drawsFarTile(60000.0));
 }
 
 }  // namespace

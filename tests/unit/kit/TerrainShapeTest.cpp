@@ -9,8 +9,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-const core::Ellipsoid kShapeEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
-
 osg::ref_ptr<osgTerrain::TerrainTile> makeHilly(const core::GeodeticBin& extents, Random& random) {
     const double high = random.uniform(0.0, 8000.0);
     return makeTerrainTile(
@@ -23,10 +21,8 @@ struct Hills {
         Random random(50);
         for (int row = 0; row < 6; ++row) {
             for (int column = 0; column < 6; ++column) {
-                const double south = 40.0 + 0.5 * row;
-                const double west = 10.0 + 0.5 * column;
-                const auto extents = extentsDeg(south, south + 0.5, west, west + 0.5);
-                const auto tile = makeHilly(extents, random);
+                const double south = 40.0 + 0.5 * row, west = 10.0 + 0.5 * column;
+                const auto tile = makeHilly(extentsDeg(south, south + 0.5, west, west + 0.5), random);
                 tile->setTileID(osgTerrain::TileID(5, column, row));
                 tiles.push_back(tile);
                 terrain->addChild(tile);
@@ -65,7 +61,7 @@ void expectHeld(const Hills& hills) {
         const auto samples = drawnSamples(*hills.tiles[i]);
         ASSERT_FALSE(samples.empty());
         const AnalyticBin bin = culledBin(hills.bin(i));
-        EXPECT_LE(metresOutside(bin, samples, kShapeEllipsoid), bin.margin()) << i;
+        EXPECT_LE(metresOutside(bin, samples, earth()), bin.margin()) << i;
     }
 }
 
@@ -188,8 +184,7 @@ TEST(OtherTerrain, AboveADatabaseLeavesItToOsg) {
     std::set<std::size_t> missed[2];
     for (const bool hasBins : {false, true}) {
         Hills hills;
-        const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-        globe->setEllipsoidModel(new osg::EllipsoidModel);
+        const auto globe = makeGlobe();
         for (const auto& tile : hills.tiles) globe->addChild(tile);
         hills.terrain->removeChildren(0, hills.terrain->getNumChildren());
         hills.terrain->addChild(globe);
@@ -212,9 +207,7 @@ TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {
 
     Hills later;
     later.watch();
-    CullOptions options;
-    options.heights = {-3000.0, 8000.0};
-    installBins(*later.terrain, options);
+    installBins(*later.terrain, optionsOf("heights=-3000..8000"));
     later.update();
     expectHeld(later);
     const double own = later.bin(0).getBin().bin().altitude().upper;

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Families of sibling tiles against the tiles' own callbacks: a callback behind a family's leaves all to these.
+// Families of sibling tiles against the tiles' own callbacks: a callback behind a family's leaves all to these. And
+// what is delivered of kept tiles. Oracle: OSG's own traversal of the same scene, by a visitor of a derived class.
+// Random scenes have it, too: tests/long/scenes.
 
 #include "KitTest.h"
 
@@ -9,27 +11,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-// Counts how often it is run.
-struct RunCounter : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        ++runs;
-        traverse(node, nv);
-    }
-    int runs = 0;
-};
-
-// Notes the state and the nodes above it.
-struct PlaceReader : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        auto* const visitor = dynamic_cast<osgUtil::CullVisitor*>(nv);
-        state = visitor ? visitor->getCurrentStateGraph()->getStateSet() : nullptr;
-        path = nv->getNodePath();
-        traverse(node, nv);
-    }
-    const osg::StateSet* state = nullptr;
-    osg::NodePath path;
-};
 
 // A visitor of an application's own, which hears of every node.
 struct OwnVisitor : osgUtil::CullVisitor {
@@ -43,8 +24,7 @@ struct OwnVisitor : osgUtil::CullVisitor {
 
 // Meshes of `degrees`, all over the globe or so far as `count` goes.
 osg::ref_ptr<osg::CoordinateSystemNode> globeOfMeshes(double degrees, std::size_t count) {
-    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-    globe->setEllipsoidModel(new osg::EllipsoidModel);
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = makeGlobe();
     for (double south = -90.0; south < 90.0; south += degrees) {
         for (double west = -180.0; west < 180.0 && globe->getNumChildren() < count; west += degrees) {
             const core::GeodeticBin extents = extentsDeg(south, south + degrees, west, west + degrees);
@@ -72,25 +52,20 @@ CullView randomView(Random& random) {
 // `methods`: those for comparison are culled by families, too.
 void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<const char*>& methods, int views) {
     for (const char* const method : methods) {
-        std::string error;
-        const auto options = cullOptionsFromText(std::string("horizon=off,edges=on,method=") + method, error);
-        ASSERT_TRUE(options) << error;
-        const auto families = globeOfMeshes(degrees, tiles);
-        const auto alone = globeOfMeshes(degrees, tiles);
-        ASSERT_EQ(installBins(*families, *options), families->getNumChildren());
-        ASSERT_EQ(installBins(*alone, *options), families->getNumChildren());
+        const CullOptions options = optionsOf(std::string("horizon=off,edges=on,method=") + method);
+        const auto families = globeOfMeshes(degrees, tiles), alone = globeOfMeshes(degrees, tiles);
+        ASSERT_EQ(installBins(*families, options), families->getNumChildren());
+        ASSERT_EQ(installBins(*alone, options), families->getNumChildren());
         alone->addCullCallback(new osg::NodeCallback);
         // families do not test the spheres either
         for (const auto& globe : {families, alone}) {
             for (unsigned int i = 0; i < globe->getNumChildren(); ++i) globe->getChild(i)->setCullingActive(false);
         }
         Random random(20260101);
-        std::uint64_t outside = 0;
-        std::uint64_t separated = 0;
+        std::uint64_t outside = 0, separated = 0;
         for (int i = 0; i < views; ++i) {
             const CullView view = randomView(random);
-            const BinCounts some = countsOf(*families, view);
-            const BinCounts others = countsOf(*alone, view);
+            const BinCounts some = countsOf(*families, view), others = countsOf(*alone, view);
             EXPECT_EQ(some.tested, others.tested) << method << i;
             EXPECT_EQ(some.outside, others.outside) << method << i;
             EXPECT_EQ(some.inside, others.inside) << method << i;
@@ -105,15 +80,11 @@ void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<con
 
 TEST(TileFamily, CullsAsTheTilesThemselves) {
     expectSameVerdicts(15.0, 288, {"quadratic", "exact"}, 200);
-}
-
-TEST(TileFamily, OfAnyNumberOfTilesCullsAsTheTilesThemselves) {
     for (const std::size_t tiles : {1u, 3u, 63u, 64u, 65u, 130u}) expectSameVerdicts(15.0, tiles, {"quadratic"}, 40);
 }
 
 TEST(TileFamily, HidesNoLessBehindTheHorizonThanTheTilesThemselves) {
-    const auto families = globeOfMeshes(15.0, 288);
-    const auto alone = globeOfMeshes(15.0, 288);
+    const auto families = globeOfMeshes(15.0, 288), alone = globeOfMeshes(15.0, 288);
     installBins(*families);
     installBins(*alone);
     alone->addCullCallback(new osg::NodeCallback);
@@ -130,39 +101,44 @@ TEST(TileFamily, HidesNoLessBehindTheHorizonThanTheTilesThemselves) {
 
 TEST(TileFamily, RunsTheCallbacksOfItsGroupAndOfItsTiles) {
     MeshGlobe globe;
-    const osg::ref_ptr<RunCounter> before = new RunCounter;
-    const osg::ref_ptr<RunCounter> behind = new RunCounter;
-    const osg::ref_ptr<RunCounter> onTile = new RunCounter;
+    std::map<std::string, int> runs;
+    const auto counting = [&runs](const std::string& name) {
+        return osg::ref_ptr<Before>(new Before([&runs, name](auto&) { ++runs[name]; }));
+    };
+    const auto before = counting("before"), behind = counting("behind"), onTile = counting("on the tile");
     for (const auto& callback : {before, behind, onTile}) setTraversesAlways(*callback);
     globe.root->setCullCallback(before);
     globe.tiles[19]->setCullCallback(onTile);
     installBins(*globe.root);
     EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-    EXPECT_EQ(before->runs, 1);
-    EXPECT_EQ(onTile->runs, 1);
+    EXPECT_EQ(runs, (std::map<std::string, int>{{"before", 1}, {"on the tile", 1}}));
     globe.root->addCullCallback(behind);
     EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-    EXPECT_EQ(behind->runs, 1);
+    EXPECT_EQ(runs["behind"], 1);
     EXPECT_FALSE(globe.drawsAntipode());
     globe.root->removeCullCallback(behind);
-    const osg::ref_ptr<RunCounter> inFront = new RunCounter;
+    const auto inFront = counting("in front");
     inFront->setNestedCallback(globe.tiles[19]->getCullCallback());
     globe.tiles[19]->setCullCallback(inFront);
     EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
-    EXPECT_EQ(inFront->runs, 1);
+    EXPECT_EQ(runs["in front"], 1);
 }
 
 TEST(TileFamily, EntersTilesWithTheirStateAndByTheirMasks) {
     MeshGlobe globe;
     osg::PagedLOD& tile = *globe.tiles[19];
-    const osg::ref_ptr<PlaceReader> reader = new PlaceReader;
-    tile.getChild(0)->setCullCallback(reader);
+    const osg::StateSet* stateAbove = nullptr;
+    osg::NodePath path;
+    tile.getChild(0)->setCullCallback(new Before([&](osgUtil::CullVisitor& visitor) {
+        stateAbove = visitor.getCurrentStateGraph()->getStateSet();
+        path = visitor.getNodePath();
+    }));
     osg::StateSet* const state = tile.getOrCreateStateSet();
     state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     installBins(*globe.root);
     EXPECT_TRUE(globe.draws(tile, MeshGlobe::fromAbove()));
-    EXPECT_EQ(reader->state, state);
-    EXPECT_EQ(std::count(reader->path.begin(), reader->path.end(), &tile), 1);
+    EXPECT_EQ(stateAbove, state);
+    EXPECT_EQ(std::count(path.begin(), path.end(), &tile), 1);
     tile.setNodeMask(0);
     EXPECT_FALSE(globe.draws(tile, MeshGlobe::fromAbove()));
 }
@@ -192,10 +168,7 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizes) {
     // and one that is taken out of it later is missed
     osg::Drawable* const drawable = drawableOf(*globe.tiles[19]);
     drawable->getParent(0)->removeChild(drawable);
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
+    globe.expectAntipode(true);
 }
 
 // Bins that are stored hold skirts, which lean outwards; the meshes themselves end before.
@@ -212,19 +185,13 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
     installBins(*globe.root, declaredHorizon());
     osgUtil::Optimizer optimizer;
     optimizer.optimize(globe.root.get());
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_FALSE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
+    globe.expectAntipode(false);
     // and one that becomes narrower leaves a gap
-    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*globe.tiles[19])->asGeometry()->getVertexArray());
+    auto& vertices = verticesOf(*globe.tiles[19]);
     for (osg::Vec3& vertex : vertices) vertex = vertices.front() + (vertex - vertices.front()) * 0.9F;
     vertices.dirty();
     drawableOf(*globe.tiles[19])->dirtyBound();
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_TRUE(globe.drawsAntipode()) << i;
-        update(*globe.root);
-    }
+    globe.expectAntipode(true);
 }
 
 // Vertices may change in each frame: the family is not made anew for that.
@@ -232,7 +199,7 @@ TEST(TileFamily, StaysWhereMeshesChange) {
     MeshGlobe globe;
     installBins(*globe.root);
     const osg::ref_ptr<osg::Callback> last = globe.root->getCullCallback()->getNestedCallback();
-    osg::Geometry& geometry = *drawableOf(*globe.tiles[19])->asGeometry();
+    osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
     geometry.getVertexArray()->dirty();
     geometry.dirtyBound();
     EXPECT_TRUE(globe.drawsAntipode());
@@ -260,7 +227,7 @@ TEST(TileFamily, IsLookedThroughOnceForManyMeshes) {
         globe.root->addChild(levels);
         installBins(*globe.root);
         for (int i = 0; i < changed; ++i) {
-            osg::Geometry& geometry = *drawableOf(*globe.tiles[static_cast<std::size_t>(i)])->asGeometry();
+            osg::Geometry& geometry = geometryOf(*globe.tiles[static_cast<std::size_t>(i)]);
             geometry.getVertexArray()->dirty();
             geometry.dirtyBound();
         }
@@ -285,6 +252,93 @@ TEST(TileFamily, FollowsTilesThatMove) {
         EXPECT_LE(after.outside, before.outside);
         EXPECT_TRUE(i == 0 || after.outside == before.outside) << after.outside;
         update(*globe.root);
+    }
+}
+
+// Kept tiles are entered by OSG.
+struct OtherVisitor : osgUtil::CullVisitor {};
+
+// Returns: the number of leaves.
+std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> plain = new osgUtil::CullVisitor;
+    const osg::ref_ptr<osgUtil::CullVisitor> other = new OtherVisitor;
+    const CullResult here = cull(scene, view, *plain), there = cull(scene, view, *other);
+    const std::vector<Leaf> leaves = leavesIn(*here.stage);
+    EXPECT_EQ(leaves.size(), leavesIn(*there.stage).size());
+    EXPECT_TRUE(leaves == leavesIn(*there.stage));
+    EXPECT_EQ(here.projection, there.projection);
+    return leaves.size();
+}
+
+struct OneTile {
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = makeGlobe();
+    const core::GeodeticBin extents = extentsDeg(0.0, 10.0, 0.0, 10.0);
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extents, 100.0);
+    const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 2e6), ecefDeg(5.0, 5.0, 0.0), {0.0, 0.0, 1.0}, 60.0);
+};
+
+TEST(FamilyTile, LeavesMeshesThatHangInTwoPlacesToOsg) {
+    OneTile scene;
+    osg::Node& geode = *scene.mesh->getChild(0);
+    const osg::ref_ptr<osg::Node> geometry = geode.asGroup()->getChild(0);
+    const osg::ref_ptr<osg::Group> dark = new osg::Group;
+    dark->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth);
+    dark->addChild(geometry);
+    scene.mesh->replaceChild(&geode, dark);
+    scene.mesh->addChild(geometry);
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 2u);
+}
+
+TEST(FamilyTile, LeavesOutPartsThatAreSmallFeatures) {
+    OneTile scene;
+    const osg::ref_ptr<osg::Node> ground = drawableOf(*scene.mesh), sign = drawableOf(*makeTower({}));
+    const auto small = makeGroup({sign});
+    scene.mesh->setChild(0, ground);
+    scene.mesh->addChild(small);
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    CullView view = scene.view;
+    EXPECT_EQ(expectSameLeaves(*scene.globe, view), 2u);
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_EQ(expectSameLeaves(*scene.globe, view), 1u);
+}
+
+TEST(FamilyTile, GoesOnWhereTheApplicationEmptiesAFile) {
+    OneTile scene;
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(scene.mesh, "finer.osgb", 1e7f);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    for (const double west : {0.0, 5.0}) {
+        for (const double south : {0.0, 5.0})
+            file->addChild(makeMeshTile(extentsDeg(south, south + 5.0, west, west + 5.0), 100.0));
+    }
+    putBelow(*paged, file);
+    scene.globe->addChild(paged);
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 4u);
+    file->removeChildren(0, file->getNumChildren());
+    for (unsigned int frame = 2; frame < 5; ++frame) {
+        EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 0u);
+        update(*scene.globe);
+    }
+}
+
+TEST(FamilyTile, MovesPlanesByWholeMatrices) {
+    OneTile scene;
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    osg::Matrixd matrix = scene.mesh->getMatrix();
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) matrix(row, column) *= 0.5;  // the same place, written otherwise
+    }
+    scene.mesh->setMatrix(matrix);
+    Random random(3);
+    for (unsigned int frame = 2; frame < 40; ++frame) {
+        update(*scene.globe);
+        const osg::Vec3d at = ecefDeg(random.uniform(-2.0, 12.0), random.uniform(-2.0, 12.0), 0.0);
+        const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 1e6), at, {0.0, 0.0, 1.0}, 10.0);
+        (void)expectSameLeaves(*scene.globe, view);
     }
 }
 

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Oracle: scene graphs whose tiles are known because they were put there.
+// Oracle: scene graphs whose tiles are known because they were put there. And scenes that are deeper than any terrain:
+// the kit's visitors end with the stack that OSG's own traversals need.
 
 #include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
 
-osg::ref_ptr<osg::MatrixTransform> makeMesh(double x = 0.0) {
+osg::ref_ptr<osg::MatrixTransform> makeLeaf(double x = 0.0) {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(x, 0, 0));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(new osg::Geometry);
@@ -32,8 +33,8 @@ TileFrame frameBelowATile() {
 
 TEST(TileFinder, FindsPagedMeshesAndTheLeavesBesideThem) {
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeMesh(), "c.osgb");
-    const osg::ref_ptr<osg::Node> leaf = makeMesh();
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "c.osgb");
+    const osg::ref_ptr<osg::Node> leaf = makeLeaf();
     const osg::ref_ptr<osgTerrain::TerrainTile> terrainLeaf = new osgTerrain::TerrainTile;
     file->addChild(leaf);
     file->addChild(paged);
@@ -49,22 +50,22 @@ TEST(TileFinder, FindsPagedMeshesAndTheLeavesBesideThem) {
 
 TEST(TileFinder, OutsideOfPagedFilesAMeshIsNoTile) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->addChild(makeMesh());
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeMesh(), "c.osgb");
+    root->addChild(makeLeaf());
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "c.osgb");
     root->addChild(paged);
     EXPECT_EQ(nodesOf(findTiles(*root)), std::vector<osg::Node*>{paged});
 }
 
 TEST(TileFinder, CountsEachFilesTilesForItself) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeMesh(), "sub/c.osgb");
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "sub/c.osgb");
     const osg::ref_ptr<osg::Group> loaded = new osg::Group;
-    const osg::ref_ptr<osg::PagedLOD> inner = makePaged(makeMesh(), "d.osgb");
-    loaded->addChild(makeMesh());
+    const osg::ref_ptr<osg::PagedLOD> inner = makePaged(makeLeaf(), "d.osgb");
+    loaded->addChild(makeLeaf());
     loaded->addChild(inner);
     paged->addChild(loaded);
     root->addChild(paged);
-    const osg::ref_ptr<osg::PagedLOD> second = makePaged(makeMesh(), "e.osgb");
+    const osg::ref_ptr<osg::PagedLOD> second = makePaged(makeLeaf(), "e.osgb");
     root->addChild(second);
     const std::vector<FoundTile> tiles = findTiles(*root);
     ASSERT_EQ(tiles.size(), 4u);
@@ -79,9 +80,9 @@ TEST(TileFinder, CountsEachFilesTilesForItself) {
 
 TEST(TileFinder, WhatMayMoveIsNoTile) {
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    const osg::ref_ptr<osg::MatrixTransform> moving = makeMesh();
+    const osg::ref_ptr<osg::MatrixTransform> moving = makeLeaf();
     moving->setDataVariance(osg::Object::DYNAMIC);
-    const osg::ref_ptr<osg::MatrixTransform> animated = makeMesh();
+    const osg::ref_ptr<osg::MatrixTransform> animated = makeLeaf();
     animated->getChild(0)->asGroup()->getChild(0)->setUpdateCallback(new osg::NodeCallback);
     file->addChild(moving);
     file->addChild(animated);
@@ -121,6 +122,95 @@ TEST(TileFinder, PathsOfPagedFilesAreRelativeToTheRoot) {
     EXPECT_EQ(pagedFilePath("a/b.osgb", "../../d.osgb"), "../d.osgb");
     EXPECT_EQ(pagedFilePath("a/b.osgb", "/etc/d.osgb"), "/etc/d.osgb");
     EXPECT_EQ(pagedFilePath("a/b.osgb", "http://host/d.osgb"), "http://host/d.osgb");
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kDeep = 1500;  // each call takes several times the stack
+#else
+constexpr int kDeep = 10000;
+#endif
+
+// Nodes each below the one before, the scene at the end. They are taken apart one by one: OSG would do so recursively.
+class Chain {
+public:
+    Chain(const std::function<osg::ref_ptr<osg::Group>(int)>& make, osg::Node* end) {
+        for (int i = 0; i < kDeep; ++i) {
+            _nodes.push_back(make(i));
+            if (i > 0) _nodes[_nodes.size() - 2]->addChild(_nodes.back());
+        }
+        _nodes.back()->addChild(end);
+        root->addChild(_nodes.front());
+    }
+    ~Chain() {
+        root->removeChildren(0, root->getNumChildren());
+        for (const auto& node : _nodes) node->removeChildren(0, node->getNumChildren());
+    }
+    Chain(const Chain&) = delete;
+    Chain& operator=(const Chain&) = delete;
+
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeGlobe();
+
+private:
+    std::vector<osg::ref_ptr<osg::Group>> _nodes;
+};
+
+const core::GeodeticBin kExtents = extentsDeg(10, 12, 20, 22);
+
+/// What is asked of a mesh in a scene of a strange shape: seen from above with every method, and culled with bins where
+/// the camera looks at it no more.
+class WatchedMesh {
+public:
+    WatchedMesh() : mesh(makeMeshTile(kExtents, 100.0)) { _reached.watch(*mesh, "mesh"); }
+
+    /// Returns: how many tiles have bins at last.
+    std::size_t installOften(osg::Node& scene) {
+        for (const Method method : {Method::Quadratic, Method::None, Method::Sphere}) {
+            (void)installBins(scene, by(method));
+            EXPECT_TRUE(isReached(scene, 21.0)) << static_cast<int>(method);
+        }
+        const std::size_t bins = installBins(scene);
+        update(scene);
+        EXPECT_TRUE(isReached(scene, 21.0));
+        EXPECT_FALSE(isReached(scene, 60.0));
+        return bins;
+    }
+
+    const osg::ref_ptr<osg::Node> mesh;
+
+private:
+    bool isReached(osg::Node& scene, double longitudeDeg) {
+        return _reached.in(scene, ecefDeg(11, longitudeDeg, 1e5), ecefDeg(11, longitudeDeg, 0), 60.0).count("mesh") > 0;
+    }
+
+    ReachedTiles _reached;
+};
+
+// Above a tile, and below one.
+TEST(HugeScenes, TransformsMayBeDeep) {
+    WatchedMesh watched;
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(watched.mesh, "none.osgb");
+    Chain chain([](int) { return new osg::MatrixTransform; }, tile);
+    WatchedMesh below;
+    Chain chainBelow([](int) { return new osg::MatrixTransform; }, below.mesh);
+    const osg::ref_ptr<osg::PagedLOD> above = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
+    putBelow(*above, chainBelow.root->getChild(0));
+    chain.root->addChild(above);
+    EXPECT_EQ(watched.installOften(*chain.root), 3u);
+    EXPECT_EQ(below.installOften(*chain.root), 3u);
+    EXPECT_TRUE(installedOn(*tile) && installedOn(*above) && installedOn(*chainBelow.root->getChild(0)));
+}
+
+TEST(HugeScenes, TilesMayBeDeep) {
+    Chain chain(
+        [](int i) -> osg::ref_ptr<osg::Group> {
+            return makePaged(makeMeshTile(kExtents, 100.0 + i), "tile" + std::to_string(i) + ".osgb");
+        },
+        makeMeshTile(kExtents, 100.0));
+    const CapturedNotes notes;
+    EXPECT_GT(installBins(*chain.root), 100u);
+    EXPECT_EQ(notes.count("tiles nested hundreds deep"), 1u);
+    for (const Method method : {Method::None, Method::Sphere, Method::Exact})
+        (void)installBins(*chain.root, by(method));
 }
 
 }  // namespace

@@ -46,4 +46,59 @@ inline std::vector<TileCase> tileCases() {
             {"south", rect(-60, 10, -45, 40), 20, 20},        {"small", rect(47, 10, 47.01, 10.02), 64, 64}};
 }
 
+// A mesh as VirtualPlanetBuilder makes it: texture coordinates over the tile, skirts of one depth, in the frame of
+// its centre.
+struct VpbMesh {
+    GeodeticBin extents;
+    unsigned int posts = 17;
+    double skirt = 5000.0;
+    double low = -500.0, high = 3000.0;
+};
+
+inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random,
+                                                      const osg::EllipsoidModel& model = *kModel) {
+    const core::Ellipsoid ellipsoid(model.getRadiusEquator(), model.getRadiusPolar());
+    const core::Geodetic center{c.extents.latitude().middle(), c.extents.longitude().middle(), 0.0};
+    osg::Matrixd frame;
+    model.computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, frame);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(frame);
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
+    const osg::ref_ptr<osg::DrawElementsUShort> triangles = gridTriangles<osg::DrawElementsUShort>(c.posts);
+    const unsigned int n = c.posts;
+    const auto add = [&](unsigned int i, unsigned int j, double altitude) {
+        const double u = static_cast<double>(i) / (n - 1);
+        const double v = static_cast<double>(j) / (n - 1);
+        const glm::dvec3 ecef =
+            ellipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
+                              c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
+        vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
+        texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
+    };
+    std::vector<double> altitudes;
+    for (unsigned int post = 0; post < n * n; ++post) {
+        altitudes.push_back(random.uniform(c.low, c.high));
+        add(post % n, post / n, altitudes.back());
+    }
+    const std::vector<unsigned int> border = gridBorder(n);
+    for (const unsigned int post : border)
+        if (c.skirt > 0.0) add(post % n, post / n, altitudes[post] - c.skirt);
+    for (std::size_t k = 0; k < border.size() && c.skirt > 0.0; ++k) {
+        const std::size_t next = (k + 1) % border.size(), bottom = n * n;
+        for (const std::size_t i : {bottom + k, bottom + next, std::size_t{border[next]}, bottom + k,
+                                    std::size_t{border[next]}, std::size_t{border[k]}})
+            triangles->push_back(static_cast<GLushort>(i));
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(vertices, triangles);
+    geometry->setTexCoordArray(0, texCoords);
+    return placed(geometry, frame);
+}
+
+// The triangles with the skirts left out, by the order in which makeVpbTile() adds them.
+inline std::vector<EcefTriangle> surfaceTriangles(osg::MatrixTransform& tile, unsigned int posts) {
+    std::vector<EcefTriangle> triangles = drawnTriangles(tile).surface;
+    triangles.resize(2 * (posts - 1) * (posts - 1));
+    return triangles;
+}
+
 }  // namespace osgAnalyticBin::test::surfaces

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Oracle: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, taken back to latitude,
-// longitude and altitude.
+// Oracle of surfaces: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, taken back to
+// latitude, longitude and altitude.
 
 #include "KitTest.h"
 #include "TileSurfaceCases.h"
@@ -11,8 +11,7 @@ namespace osgAnalyticBin::test::surfaces {
 namespace {
 
 osg::ref_ptr<osgTerrain::TerrainTile> randomTile(const TileCase& c, Random& random) {
-    const double low = random.uniform(-11000.0, 8000.0);
-    const double high = random.uniform(low, 8800.0);
+    const double low = random.uniform(-11000.0, 8000.0), high = random.uniform(low, 8800.0);
     return makeTerrainTile(c.extents, c.columns, c.rows, [&](unsigned int, unsigned int) {
         return static_cast<float>(random.chance(0.2) ? low : random.uniform(low, high));
     });
@@ -22,7 +21,12 @@ osg::HeightField& heightsOf(osgTerrain::TerrainTile& tile) {
     return *static_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer())->getHeightField();
 }
 
-TEST(TileSurface, HoldsEveryTriangleOfATerrainTile) {
+osg::ref_ptr<osgTerrain::TerrainTile> makePlainTile() {
+    return makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
+                           [](unsigned int, unsigned int) { return 100.0f; });
+}
+
+TEST(TileSurface, HoldsEveryTriangleOfATerrainTileTightly) {
     Random random(1);
     for (const TileCase& c : tileCases()) {
         for (const float scale : {1.0f, 3.0f, 0.25f, 10.0f, -2.0f}) {
@@ -31,10 +35,22 @@ TEST(TileSurface, HoldsEveryTriangleOfATerrainTile) {
             ASSERT_TRUE(surface.bin.valid()) << c.name;
             EXPECT_TRUE(surface.isScalable);
             EXPECT_EQ(surface.skirt, 0.0);
-            const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 3);
+            const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, scale == 1.0f ? 6 : 3);
             ASSERT_FALSE(samples.empty());
             const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
-            EXPECT_LE(metresOutside(bin, samples, kEllipsoid), bin.margin()) << c.name << " scale " << scale;
+            const double margin = bin.margin();
+            EXPECT_LE(metresOutside(bin, samples, kEllipsoid), margin) << c.name << " scale " << scale;
+            if (scale != 1.0f) continue;
+            const core::Interval seen = altitudesOf(samples);
+            EXPECT_LE(bin.bin().altitude().upper, seen.upper + margin) << c.name;
+            // the lowest post need not stand where chords sag most
+            EXPECT_LE(seen.lower - bin.bin().altitude().lower, bin.sag() + margin) << c.name;
+            EXPECT_EQ(bin.bin().longitude(), c.extents.longitude()) << c.name;
+            // half a column about its middle, squared, over four: the poleward run at 45 degrees
+            const double column = c.extents.longitude().width() / (c.columns - 1), run = 0.07 * column * column + 1e-12;
+            EXPECT_LE(bin.bin().latitude().upper - c.extents.latitude().upper, run);
+            EXPECT_LE(c.extents.latitude().lower - bin.bin().latitude().lower, run);
+            EXPECT_LE(margin, 2.0);
         }
     }
 }
@@ -56,25 +72,6 @@ TEST(TileSurface, HoldsATerrainTileWhoseColoursStandElsewhere) {
     }
 }
 
-TEST(TileSurface, IsTightAroundATerrainTile) {
-    Random random(2);
-    for (const TileCase& c : tileCases()) {
-        const auto tile = randomTile(c, random);
-        const TileSurface surface = surfaceOf(*tile);
-        const core::Interval seen = altitudesOf(samplesOf(drawnTriangles(*tile, 1.0f).surface));
-        const double margin = surface.bin.margin();
-        EXPECT_LE(surface.bin.bin().altitude().upper, seen.upper + margin) << c.name;
-        // the lowest post need not stand where chords sag most
-        EXPECT_LE(seen.lower - surface.bin.bin().altitude().lower, surface.bin.sag() + margin) << c.name;
-        EXPECT_EQ(surface.bin.bin().longitude(), c.extents.longitude()) << c.name;
-        // half a column about its middle, squared, over four: the poleward run at 45 degrees
-        const double column = c.extents.longitude().width() / (c.columns - 1);
-        EXPECT_LE(surface.bin.bin().latitude().upper - c.extents.latitude().upper, 0.07 * column * column + 1e-12);
-        EXPECT_LE(c.extents.latitude().lower - surface.bin.bin().latitude().lower, 0.07 * column * column + 1e-12);
-        EXPECT_LE(margin, 2.0);
-    }
-}
-
 TEST(TileSurface, KnowsHowLowEveryEdgeIs) {
     Random random(3);
     for (const TileCase& c : tileCases()) {
@@ -82,10 +79,8 @@ TEST(TileSurface, KnowsHowLowEveryEdgeIs) {
         const TileSurface surface = surfaceOf(*tile);
         std::array<double, 4> seen;
         seen.fill(std::numeric_limits<double>::infinity());
-        const core::Interval latitude = c.extents.latitude();
-        const core::Interval longitude = c.extents.longitude();
-        const double row = latitude.width() / (c.rows - 1);
-        const double column = longitude.width() / (c.columns - 1);
+        const core::Interval latitude = c.extents.latitude(), longitude = c.extents.longitude();
+        const double row = latitude.width() / (c.rows - 1), column = longitude.width() / (c.columns - 1);
         const auto altitude = [&](unsigned int i, unsigned int j) {
             return static_cast<double>(heightsOf(*tile).getHeight(i, j));
         };
@@ -139,8 +134,7 @@ TEST(TileSurface, PassesOverPostsWithoutData) {
 }
 
 TEST(TileSurface, KnowsATileWithoutHeights) {
-    const auto tile = makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
-                                      [](unsigned int, unsigned int) { return 0.0f; });
+    const auto tile = makePlainTile();
     const osg::ref_ptr<osgTerrain::ImageLayer> image = new osgTerrain::ImageLayer;
     image->setLocator(tile->getElevationLayer()->getLocator());
     tile->setElevationLayer(nullptr);
@@ -169,60 +163,147 @@ TEST(TileSurface, LeavesSkirtsOfTerrainTilesOut) {
     }
 }
 
+struct OwnLocator : osgTerrain::Locator {
+    explicit OwnLocator(const osgTerrain::Locator& other) : osgTerrain::Locator(other) {}
+};
+struct OwnLayer : osgTerrain::HeightFieldLayer {
+    explicit OwnLayer(osgTerrain::HeightFieldLayer& other) : osgTerrain::HeightFieldLayer(other.getHeightField()) {
+        setLocator(other.getLocator());
+    }
+};
+
+// Classes of the application's may place what they like, and have any heights.
 TEST(TileSurface, IsUnknownWhereTheTileIsBroken) {
-    const auto fresh = [] {
-        return makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
-                               [](unsigned int, unsigned int) { return 100.0f; });
-    };
-    ASSERT_TRUE(surfaceOf(*fresh()).bin.valid());
-    auto tile = fresh();
-    heightsOf(*tile).setHeight(3, 3, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
-    tile = fresh();
-    heightsOf(*tile).setHeight(3, 3, std::numeric_limits<float>::infinity());
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
-    tile = fresh();
-    heightsOf(*tile).getHeightList().resize(63);
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
-    tile = fresh();
-    tile->getElevationLayer()->getLocator()->setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
-    tile = fresh();
-    tile->getElevationLayer()->getLocator()->setTransform(osg::Matrixd::rotate(0.5, 0, 0, 1));
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
-    tile = fresh();
-    tile->getElevationLayer()->getLocator()->setTransformAsExtents(0, 0, 90, 45);
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "degrees";
-    struct OwnLocator : osgTerrain::Locator {
-        explicit OwnLocator(const osgTerrain::Locator& other) : osgTerrain::Locator(other) {}
-    };
-    tile = fresh();
-    tile->getElevationLayer()->setLocator(new OwnLocator(*tile->getElevationLayer()->getLocator()));
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "it may place what it likes";
-    struct OwnLayer : osgTerrain::HeightFieldLayer {
-        explicit OwnLayer(osgTerrain::HeightFieldLayer& other) : osgTerrain::HeightFieldLayer(other.getHeightField()) {
-            setLocator(other.getLocator());
-        }
-    };
-    tile = fresh();
-    tile->setElevationLayer(new OwnLayer(static_cast<osgTerrain::HeightFieldLayer&>(*tile->getElevationLayer())));
-    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "it may have any heights";
-    tile = fresh();
-    EXPECT_FALSE(tileSurface(*tile, *kModel, osg::Matrixd::translate(1, 0, 0)).bin.valid());
-    const osg::ref_ptr<osg::EllipsoidModel> moon = new osg::EllipsoidModel(1737400.0, 1736000.0);
-    EXPECT_FALSE(tileSurface(*tile, *moon, osg::Matrixd()).bin.valid());
+    using Layer = osgTerrain::HeightFieldLayer;
+    using Limits = std::numeric_limits<float>;
+    const std::function<void(osgTerrain::TerrainTile&, Layer&)> breaks[] = {
+        [](auto&, auto& layer) { layer.getHeightField()->setHeight(3, 3, Limits::quiet_NaN()); },
+        [](auto&, auto& layer) { layer.getHeightField()->setHeight(3, 3, Limits::infinity()); },
+        [](auto&, auto& layer) { layer.getHeightField()->getHeightList().resize(63); },
+        [](auto&, auto& layer) { layer.getLocator()->setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC); },
+        [](auto&, auto& layer) { layer.getLocator()->setTransform(osg::Matrixd::rotate(0.5, 0, 0, 1)); },
+        [](auto&, auto& layer) { layer.getLocator()->setTransformAsExtents(0, 0, 90, 45); },  // degrees
+        [](auto&, auto& layer) { layer.setLocator(new OwnLocator(*layer.getLocator())); },
+        [](auto& tile, auto& layer) { tile.setElevationLayer(new OwnLayer(layer)); }};
+    for (std::size_t i = 0; i < std::size(breaks); ++i) {
+        const auto tile = makePlainTile();
+        ASSERT_TRUE(surfaceOf(*tile).bin.valid());
+        breaks[i](*tile, static_cast<Layer&>(*tile->getElevationLayer()));
+        EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << i;
+    }
+    EXPECT_FALSE(tileSurface(*makePlainTile(), *kModel, osg::Matrixd::translate(1, 0, 0)).bin.valid());
+    EXPECT_FALSE(tileSurface(*makePlainTile(), osg::EllipsoidModel(1737400.0, 1736000.0), osg::Matrixd()).bin.valid());
 }
 
 TEST(TileSurface, NeitherTraversesNorChangesATerrainTile) {
     const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
-    const auto tile = makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
-                                      [](unsigned int, unsigned int) { return 100.0f; });
+    const auto tile = makePlainTile();
     ASSERT_TRUE(surfaceOf(*tile).bin.valid());
     EXPECT_NE(surfaceFingerprint(*tile, osg::Matrixd()), 0u);
     EXPECT_EQ(tile->getTerrainTechnique(), nullptr);
     terrain->addChild(tile);
     (void)drawnTriangles(*terrain);
     EXPECT_EQ(tile->getTerrain(), terrain.get());
+}
+
+osg::ref_ptr<osgTerrain::TerrainTile> makeTile() {
+    return makeTerrainTile(core::GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 17, 13,
+                           [](unsigned int i, unsigned int j) { return static_cast<float>(100 * i + j); });
+}
+
+osg::ref_ptr<osg::Geometry> makeMesh() {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
+    const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+    for (int i = 0; i < 50; ++i) {
+        vertices->push_back(osg::Vec3(6378137.0f, 7.0f * static_cast<float>(i), static_cast<float>(i * i)));
+        texCoords->push_back(osg::Vec2(0.02f * static_cast<float>(i), 0.5f));
+        for (int k = 0; k < 3; ++k) triangles->push_back(static_cast<GLushort>((i + k) % 50));
+    }
+    geometry->setVertexArray(vertices);
+    geometry->setTexCoordArray(0, texCoords);
+    geometry->addPrimitiveSet(triangles);
+    return geometry;
+}
+
+std::uint64_t fingerprintOf(osg::Node& node) {
+    return surfaceFingerprint(node, osg::Matrixd());
+}
+
+// Indexes keep fingerprints: a change of the function is a change of their format.
+TEST(SurfaceFingerprint, StaysAsItIs) {
+    EXPECT_EQ(fingerprintOf(*makeTile()), 3446540989968547260u);
+    EXPECT_EQ(fingerprintOf(*makeMesh()), 1996310240858576859u);
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_NE(fingerprintOf(*empty), 0u);
+}
+
+TEST(SurfaceFingerprint, TellsEveryPostOfATerrainTile) {
+    std::set<std::uint64_t> seen{fingerprintOf(*makeTile())};
+    const auto expectNew = [&seen](const std::function<void(osgTerrain::TerrainTile&, osg::HeightField&)>& change) {
+        const auto tile = makeTile();
+        auto& layer = static_cast<osgTerrain::HeightFieldLayer&>(*tile->getElevationLayer());
+        change(*tile, *layer.getHeightField());
+        EXPECT_TRUE(seen.insert(fingerprintOf(*tile)).second);
+    };
+    using Tile = osgTerrain::TerrainTile;
+    for (unsigned int i = 0; i < 17; ++i)
+        for (unsigned int j = 0; j < 13; ++j)
+            expectNew([=](Tile&, auto& heights) { heights.setHeight(i, j, -heights.getHeight(i, j) - 0.001f); });
+    expectNew([](Tile& tile, auto&) { tile.getElevationLayer()->getLocator()->setTransformAsExtents(0, 0, 1, 1); });
+    expectNew([](Tile&, auto& heights) { heights.setSkirtHeight(1.0f); });
+    for (const float noData : {-1.0f, 3.0f, 4.0f}) {
+        expectNew([=](Tile& tile, auto&) {
+            tile.getElevationLayer()->setValidDataOperator(new osgTerrain::NoDataValue(noData));
+        });
+    }
+    expectNew([](Tile& tile, auto&) {
+        tile.getElevationLayer()->getLocator()->setEllipsoidModel(new osg::EllipsoidModel(6378137.0, 6356752.0));
+    });
+    EXPECT_TRUE(seen.insert(surfaceFingerprint(*makeTile(), osg::Matrixd::translate(0, 0, 1))).second);
+}
+
+TEST(SurfaceFingerprint, TellsEveryVertexAndIndexOfAMesh) {
+    std::set<std::uint64_t> seen{fingerprintOf(*makeMesh())};
+    for (unsigned int i = 0; i < 50; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto mesh = makeMesh();
+            float& value = verticesOf(*mesh)[i][axis];
+            value = std::nextafter(value, 1e9f);
+            EXPECT_TRUE(seen.insert(fingerprintOf(*mesh)).second);
+        }
+        const auto mesh = makeMesh();
+        static_cast<osg::DrawElementsUShort&>(*mesh->getPrimitiveSet(0))[3 * i] = 49;
+        EXPECT_EQ(seen.insert(fingerprintOf(*mesh)).second, i != 49);
+    }
+}
+
+TEST(SurfaceFingerprint, TellsWhereABillboardsDrawablesStand) {
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    for (int i = 0; i < 3; ++i) billboard->addDrawable(makeMesh(), osg::Vec3(1.0f, 2.0f, 3.0f));
+    std::set<std::uint64_t> seen{fingerprintOf(*billboard)};
+    for (unsigned int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            billboard->getPositionList()[i][axis] += 1.0f;
+            EXPECT_TRUE(seen.insert(fingerprintOf(*billboard)).second);
+        }
+    }
+    static_cast<osg::Vec3Array&>(*billboard->getDrawable(2)->asGeometry()->getVertexArray())[0].x() += 1.0f;
+    EXPECT_TRUE(seen.insert(fingerprintOf(*billboard)).second);
+}
+
+TEST(SurfaceFingerprint, TellsSignsThatChangeTogether) {
+    std::set<std::uint64_t> seen{fingerprintOf(*makeMesh())};
+    for (unsigned int i = 0; i < 50; ++i) {
+        for (unsigned int j = i + 1; j < 50; ++j) {
+            const auto mesh = makeMesh();
+            auto& vertices = verticesOf(*mesh);
+            vertices[i] = -vertices[i];
+            vertices[j] = -vertices[j];
+            EXPECT_TRUE(seen.insert(fingerprintOf(*mesh)).second) << i << " " << j;
+        }
+    }
 }
 
 }  // namespace
