@@ -255,7 +255,7 @@ FAULTS = [
     Fault("what adds to a mesh without covering it is searched", "src/kit/cull/SelectionEvidence.cpp",
           "!(_isAdded && hasGapBelow(tile))", "true", NODE, "Models.*"),
     Fault("tiles that come among models are never looked for", "src/kit/cull/TileFamily.cpp",
-          "    expectTilesBelow(node);\n    const", "    const", NODE, "Models/*"),
+          "    expectTilesBelow(node);\n    const", "    const", NODE, "TilesAmongModels.*"),
     Fault("a model that has changed without growing is not read again", "src/kit/install/ContentWatch.cpp",
           "isOwnFrame && !isBoundDue(child) && isHeld(i, child)",
           "isOwnFrame && (!isBoundDue(child) || true) && isHeld(i, child)", NODE, "WhatIgnoresDepth.*"),

@@ -16,26 +16,6 @@ namespace osgAnalyticBin::test {
 
 namespace {
 
-class NameFinder : public osg::NodeVisitor {
-public:
-    explicit NameFinder(const std::string& name) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _name(name) {
-        setNodeMaskOverride(~0u);
-    }
-    void apply(osg::Node& node) override {
-        if (found) return;
-        if (node.getName() == _name) {
-            found = &node;
-            return;
-        }
-        // a terrain tile that is traversed before it has its Terrain never finds it afterwards
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    osg::Node* found = nullptr;
-
-private:
-    const std::string& _name;
-};
-
 /// From the frame of a hook's children to the database's own.
 osg::Matrixd frameOf(const Part& part, const Description& description, const osg::Node& node) {
     const DatabaseSpec& database = description.database(part.tile.database);
@@ -274,9 +254,12 @@ osg::Matrixd frameOfHouses(const Part& part, const Description& description) {
 }
 
 osg::Node* findNode(osg::Node& subgraph, const std::string& name) {
-    NameFinder finder(name);
-    subgraph.accept(finder);
-    return finder.found;
+    osg::Node* found = nullptr;
+    walk(subgraph, [&](osg::Node& node) {
+        if (!found && node.getName() == name) found = &node;
+        return !found;
+    });
+    return found;
 }
 
 void applyPart(const Part& part, const Description& description, osg::Node& subgraph) {

@@ -9,6 +9,22 @@
 
 namespace osgAnalyticBin::test {
 
+/// Calls `visit(node)` with all nodes, whatever is switched off; it returns whether to go on below the node. A terrain
+/// tile that is traversed before it has its Terrain never finds it afterwards.
+template <class Visit>
+void walk(osg::Node& subgraph, const Visit& visit) {
+    struct Walker : osg::NodeVisitor {
+        explicit Walker(const Visit& what) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), visit(what) {
+            setNodeMaskOverride(~0u);
+        }
+        void apply(osg::Node& node) override {
+            if (visit(node) && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+        }
+        const Visit& visit;
+    } walker(visit);
+    subgraph.accept(walker);
+}
+
 /// The first node of this name, whatever is switched off. Returns: nullptr when there is none.
 [[nodiscard]] osg::Node* findNode(osg::Node& subgraph, const std::string& name);
 

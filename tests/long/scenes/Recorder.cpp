@@ -65,23 +65,27 @@ void Recorder::apply(osg::Drawable& drawable) {
     const unsigned int before = _currentReuseRenderLeafIndex;
     const bool hasCallback = drawable.getCullCallback() != nullptr;
     const std::uint32_t culledBefore = hasCallback ? culledBins(*this) : 0;
-    const osg::NodePath& path = getNodePath();
     std::string key = newKey();
     const States found = states(drawable.getStateSet());
     if (_painter) pushStateSet(_painter->paintFor(key, found.hasProgram));
     osgUtil::CullVisitor::apply(drawable);
     if (_painter) popStateSet();
     if (_currentReuseRenderLeafIndex == before) return;
-    const bool isCountedCulled = hasCallback && culledBins(*this) != culledBefore;
-    Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
-                        *getProjectionMatrix(), isFilled(path), found.isPlain,         isCountedCulled};
+    deliver(std::move(key), drawable, *getModelViewMatrix(), found.isPlain,
+            hasCallback && culledBins(*this) != culledBefore);
+}
+
+void Recorder::deliver(std::string key, const osg::Drawable& drawable, const osg::Matrixd& modelView, bool isPlain,
+                       bool isCountedCulled) {
+    Delivered delivered{
+        cameraText(getNodePath()), &drawable, modelView,      getProjectionMatrix(), *getProjectionMatrix(),
+        isFilled(getNodePath()),   isPlain,   isCountedCulled};
     _delivery.drawables.emplace(std::move(key), std::move(delivered));
 }
 
 // The cull visitor does not visit the drawables of a billboard. Each has its own matrix.
 void Recorder::apply(osg::Billboard& node) {
     const unsigned int before = _traversalOrderNumber;
-    const osg::NodePath& path = getNodePath();
     const States found = states(node.getStateSet());
     if (_painter) pushStateSet(_painter->paintFor(newKey(), found.hasProgram));
     osgUtil::CullVisitor::apply(node);
@@ -90,9 +94,7 @@ void Recorder::apply(osg::Billboard& node) {
         // the others belong to another node or to an earlier frame
         if (!leaf->getDrawable() || leaf->_traversalOrderNumber < before || !node.containsNode(leaf->getDrawable()))
             continue;
-        Delivered delivered{cameraText(path),       leaf->getDrawable(), *leaf->_modelview, getProjectionMatrix(),
-                            *getProjectionMatrix(), isFilled(path),      found.isPlain,     false};
-        _delivery.drawables.emplace(newKey(), std::move(delivered));
+        deliver(newKey(), *leaf->getDrawable(), *leaf->_modelview, found.isPlain, false);
     }
 }
 

@@ -88,6 +88,9 @@ private:
     };
     [[nodiscard]] States states(const osg::StateSet* own);
 
+    void deliver(std::string key, const osg::Drawable& drawable, const osg::Matrixd& modelView, bool isPlain,
+                 bool isCountedCulled);
+
     // For what is at the end of the path: a key that no drawable has yet.
     [[nodiscard]] std::string newKey() const;
 

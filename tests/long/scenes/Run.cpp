@@ -58,40 +58,6 @@ ObjectWatch& objectWatch() {
     return *watch;
 }
 
-/// PagedLODs by themselves and the file that they page.
-class PagedFinder : public osg::NodeVisitor {
-public:
-    PagedFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::PagedLOD& node) override {
-        const unsigned int count = node.getNumChildren();
-        const bool isAwaited = count < node.getNumFileNames() && !node.getFileName(count).empty();
-        if (isAwaited) waiting[{node.getName(), node.getFileName(count)}].insert(&node);
-        traverse(node);
-    }
-    std::map<Request, std::set<osg::PagedLOD*>> waiting;
-};
-
-/// Takes InstallBinsCallbacks off globes.
-class RequestRemover : public osg::NodeVisitor {
-    static osg::ref_ptr<osg::Callback> requestAmong(osg::Callback* callback) {
-        while (callback && !dynamic_cast<InstallBinsCallback*>(callback)) callback = callback->getNestedCallback();
-        return callback;
-    }
-
-public:
-    RequestRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::CoordinateSystemNode& node) override {
-        if (const auto request = requestAmong(node.getUpdateCallback())) node.removeUpdateCallback(request);
-        if (const auto request = requestAmong(node.getEventCallback())) node.removeEventCallback(request);
-    }
-};
-
 /// One of the two scenes, and the visitors that go with it.
 class Scene {
 public:
@@ -154,10 +120,17 @@ public:
     void addViewState(const Part& part) { setState(part.variant, part.value, *_ownStates); }
     void leaveOut(const std::string& name) { _recorder->leftOut.insert(name); }
 
+    /// PagedLODs by themselves and the file that they page.
     [[nodiscard]] std::map<Request, std::set<osg::PagedLOD*>> waiting() {
-        PagedFinder finder;
-        root->accept(finder);
-        return finder.waiting;
+        std::map<Request, std::set<osg::PagedLOD*>> found;
+        walk(*root, [&](osg::Node& node) {
+            auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+            const unsigned int count = paged ? paged->getNumChildren() : 0;
+            const bool isAwaited = paged && count < paged->getNumFileNames() && !paged->getFileName(count).empty();
+            if (isAwaited) found[{paged->getName(), paged->getFileName(count)}].insert(paged);
+            return true;
+        });
+        return found;
     }
 
     osg::ref_ptr<osg::Group> root;
@@ -451,8 +424,16 @@ private:
 
     // The application's own wish for bins, on copies of globes too.
     void removeRequests() {
-        RequestRemover remover;
-        _with.root->accept(remover);
+        const auto requestAmong = [](osg::Callback* callback) {
+            while (callback && !dynamic_cast<InstallBinsCallback*>(callback)) callback = callback->getNestedCallback();
+            return osg::ref_ptr<osg::Callback>(callback);
+        };
+        walk(*_with.root, [&](osg::Node& node) {
+            if (!dynamic_cast<osg::CoordinateSystemNode*>(&node)) return true;
+            if (const auto request = requestAmong(node.getUpdateCallback())) node.removeUpdateCallback(request);
+            if (const auto request = requestAmong(node.getEventCallback())) node.removeEventCallback(request);
+            return false;
+        });
     }
 
     // Both scenes get what either of them has asked for.

@@ -44,6 +44,13 @@ osg::Vec3d upAt(const DatabaseSpec& database, double latitude, double longitude,
                                       localFrame(database, latitude, longitude, 0.0) * database.toWorld(frame));
 }
 
+/// Latitude and longitude of a place so far away.
+std::pair<double, double> movedBy(const DatabaseSpec& database, double latitude, double longitude, double north,
+                                  double east, double unit) {
+    const double parallel = database.isMap ? 1.0 : std::max(0.1, std::cos(latitude));
+    return {latitude + north / unit, longitude + east / unit / parallel};
+}
+
 /// At the upper part of a model, as often from below it as from above.
 Look lookAtModel(Random& random, const Description& description, const Part& part, int frame) {
     const DatabaseSpec& database = description.database(part.tile.database);
@@ -60,13 +67,9 @@ Look lookAtModel(Random& random, const Description& description, const Part& par
     const double overBins = CullOptions::kTerrainOnEarth.upper * database.scale() - highestOf(database);
     if (isBelow && overBins < 0.9 * higher && random.chance(0.7))
         above = random.uniform(std::max(overBins, 10.0), 0.95 * higher);
-    const double bearing = random.uniform(0.0, 6.28);
-    const double north = distance * std::cos(bearing);
-    const double east = distance * std::sin(bearing) + part.amount * frames;
-    const double unit = database.isMap ? 1.0 : database.polar;
-    const double latitude = part.latitude + north / unit;
-    const double longitude =
-        part.longitude + east / unit / (database.isMap ? 1.0 : std::max(0.1, std::cos(part.latitude)));
+    const double bearing = random.uniform(0.0, 6.28), unit = database.isMap ? 1.0 : database.polar;
+    const auto [latitude, longitude] = movedBy(database, part.latitude, part.longitude, distance * std::cos(bearing),
+                                               distance * std::sin(bearing) + part.amount * frames, unit);
     const osg::Matrixd world = database.toWorld(frame);
     const osg::Vec3d up = upAt(database, latitude, longitude, frame);
     Look look{place(database, latitude, longitude, highestOf(database) + above) * world, center * world, up, above};
@@ -86,9 +89,8 @@ Look lookAtTile(Random& random, const Description& description, const TileKey& t
     const double bearing = random.uniform(0.0, 6.28);
     const double unit = database.isMap ? size : 1.0;
     const osg::Vec3d center = place(database, latitude, longitude, database.relief * random.uniform(-1.0, 1.0));
-    const double eyeLatitude = latitude + unit * away * std::cos(bearing);
-    const double eyeLongitude =
-        longitude + unit * away * std::sin(bearing) / (database.isMap ? 1.0 : std::max(0.1, std::cos(latitude)));
+    const auto [eyeLatitude, eyeLongitude] =
+        movedBy(database, latitude, longitude, unit * away * std::cos(bearing), unit * away * std::sin(bearing), 1.0);
     const osg::Vec3d eye = place(database, eyeLatitude, eyeLongitude, highestOf(database) + altitude);
     const osg::Matrixd world = database.toWorld(frame);
     return {eye * world, center * world, upAt(database, eyeLatitude, eyeLongitude, frame), altitude};
@@ -133,9 +135,9 @@ Look lookThroughValley(Random& random, const Description& description, const Til
     const double altitude = surfaceHeight(database, latitude, longitude) + above;
     const double distance = random.logUniform(0.1, 5.0) * database.waveLength();
     const double bearing = random.uniform(0.0, 6.28);
-    const double eastward = distance * std::sin(bearing) / (database.isMap ? 1.0 : std::max(0.1, std::cos(latitude)));
-    const osg::Vec3d center = place(database, latitude + distance * std::cos(bearing), longitude + eastward,
-                                    database.relief * random.uniform(-1.0, 1.0));
+    const auto [there, east] =
+        movedBy(database, latitude, longitude, distance * std::cos(bearing), distance * std::sin(bearing), 1.0);
+    const osg::Vec3d center = place(database, there, east, database.relief * random.uniform(-1.0, 1.0));
     const osg::Matrixd world = database.toWorld(frame);
     const osg::Vec3d eye = place(database, latitude, longitude, altitude);
     const osg::Vec3d up = upAt(database, latitude, longitude, frame);

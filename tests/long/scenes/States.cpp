@@ -86,68 +86,35 @@ Maker shared(const Maker& maker) {
     };
 }
 
-Maker program(const std::string& vertexShader, const std::string& fragmentMain, bool isDeclared = false) {
-    return shared([=] {
-        const osg::ref_ptr<osg::Program> made = new osg::Program;
-        made->addShader(new osg::Shader(osg::Shader::VERTEX, vertexShader));
-        made->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPaintFunction + fragmentMain));
-        if (isDeclared) setDrawsTriangles(*made);
+template <class Attribute, class Set>
+Maker configured(const Set& set) {
+    return [=]() -> osg::ref_ptr<osg::StateAttribute> {
+        const osg::ref_ptr<Attribute> made = new Attribute;
+        set(*made);
         return made;
-    });
+    };
+}
+
+Maker program(const std::string& vertexShader, const std::string& fragmentMain, bool isDeclared = false) {
+    return shared(configured<osg::Program>([=](auto& made) {
+        made.addShader(new osg::Shader(osg::Shader::VERTEX, vertexShader));
+        made.addShader(new osg::Shader(osg::Shader::FRAGMENT, kPaintFunction + fragmentMain));
+        if (isDeclared) setDrawsTriangles(made);
+    }));
 }
 
 // No vertex comes out of it.
 Maker geometryProgram() {
-    return shared([] {
-        const osg::ref_ptr<osg::Program> made = new osg::Program;
-        made->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
-        made->addShader(new osg::Shader(osg::Shader::GEOMETRY,
-                                        "#version 150 compatibility\n"
-                                        "layout(triangles) in;\n"
-                                        "layout(triangle_strip, max_vertices = 3) out;\n"
-                                        "void main() {}\n"));
-        made->addShader(
+    return shared(configured<osg::Program>([](auto& made) {
+        made.addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
+        made.addShader(new osg::Shader(osg::Shader::GEOMETRY,
+                                       "#version 150 compatibility\n"
+                                       "layout(triangles) in;\n"
+                                       "layout(triangle_strip, max_vertices = 3) out;\n"
+                                       "void main() {}\n"));
+        made.addShader(
             new osg::Shader(osg::Shader::FRAGMENT, std::string(kPaintFunction) + "void main() { paintFragment(); }\n"));
-        return made;
-    });
-}
-
-// OpenGL uses assembly programs only while no GLSL program is bound.
-Maker assembly(bool isVertex, const std::string& text) {
-    return shared([=]() -> osg::ref_ptr<osg::StateAttribute> {
-        if (!isVertex) {
-            const osg::ref_ptr<osg::FragmentProgram> made = new osg::FragmentProgram;
-            made->setFragmentProgram(text);
-            return made;
-        }
-        const osg::ref_ptr<osg::VertexProgram> made = new osg::VertexProgram;
-        made->setVertexProgram(text);
-        return made;
-    });
-}
-
-osg::ref_ptr<osg::StateAttribute> makeMask(bool hasColours, bool hasAlpha = true) {
-    return new osg::ColorMask(hasColours, hasColours, hasColours, hasAlpha);
-}
-
-osg::ref_ptr<osg::StateAttribute> makeStencil() {
-    const osg::ref_ptr<osg::Stencil> stencil = new osg::Stencil;
-    stencil->setFunction(osg::Stencil::EQUAL, 1, ~0u);
-    return stencil;
-}
-
-osg::ref_ptr<osg::StateAttribute> makeTwoSidedStencil() {
-    const osg::ref_ptr<osg::StencilTwoSided> stencil = new osg::StencilTwoSided;
-    stencil->setFunction(osg::StencilTwoSided::FRONT, osg::StencilTwoSided::NEVER, 0, ~0u);
-    return stencil;
-}
-
-// It draws nothing, and marks where it would.
-osg::ref_ptr<osg::StateAttribute> makeWritingStencil() {
-    const osg::ref_ptr<osg::Stencil> stencil = new osg::Stencil;
-    stencil->setFunction(osg::Stencil::NEVER, 1, ~0u);
-    stencil->setOperation(osg::Stencil::REPLACE, osg::Stencil::REPLACE, osg::Stencil::REPLACE);
-    return stencil;
+    }));
 }
 
 osg::ref_ptr<osg::StateAttribute> makeTexture() {
@@ -163,29 +130,6 @@ osg::ref_ptr<osg::StateAttribute> makeStipple() {
     return new osg::PolygonStipple(pattern);
 }
 
-osg::ref_ptr<osg::StateAttribute> makeSampleMask() {
-    const osg::ref_ptr<osg::SampleMaski> mask = new osg::SampleMaski;
-    mask->setMask(0u);
-    return mask;
-}
-
-osg::ref_ptr<osg::StateAttribute> makeMultisample() {
-    const osg::ref_ptr<osg::Multisample> multisample = new osg::Multisample;
-    multisample->setSampleCoverage(0.5f, true);
-    return multisample;
-}
-
-osg::ref_ptr<osg::StateAttribute> makeClipPlane() {
-    return new osg::ClipPlane(0, osg::Vec4d(1.0, 0.0, 0.0, 0.0));
-}
-
-osg::ref_ptr<osg::StateAttribute> makeShaderPart() {
-    const osg::ref_ptr<osg::ShaderAttribute> part = new osg::ShaderAttribute;
-    part->setType(osg::StateAttribute::VERTEXPROGRAM);
-    part->addShader(new osg::Shader(osg::Shader::VERTEX, "void moved(inout vec4 place) { place.xy += 2.0; }\n"));
-    return part;
-}
-
 // Not among them: osg::ViewportIndexed, which OSG leaves in force for all that is drawn later.
 std::vector<NamedState> makeStates() {
     const std::string paints = "void main() { paintFragment(); }\n";
@@ -197,9 +141,15 @@ std::vector<NamedState> makeStates() {
         {"rasterizer discard", nullptr, {kDiscard}},
         {"viewport", made<osg::Viewport>(0, 0, 64, 64), {}},
         {"no program", shared(made<osg::Program>()), {}},
-        {"ARB vertex program", assembly(true, "!!ARBvp1.0\nMOV result.position, {2,2,2,1};\nEND\n"), {}},
+        // OpenGL uses assembly programs only while no GLSL program is bound
+        {"ARB vertex program",
+         shared(configured<osg::VertexProgram>(
+             [](auto& made) { made.setVertexProgram("!!ARBvp1.0\nMOV result.position, {2,2,2,1};\nEND\n"); })),
+         {}},
         {"ARB fragment program",
-         assembly(false, "!!ARBfp1.0\nTEMP t;\nMOV t, {-1,-1,-1,-1};\nKIL t;\nMOV result.color, t;\nEND\n"),
+         shared(configured<osg::FragmentProgram>([](auto& made) {
+             made.setFragmentProgram("!!ARBfp1.0\nTEMP t;\nMOV t, {-1,-1,-1,-1};\nKIL t;\nMOV result.color, t;\nEND\n");
+         })),
          {}},
         {"program that draws triangles", program(kVertexShader, paints), {}},
         {"declared program", program(kVertexShader, paints, true), {}},
@@ -214,7 +164,13 @@ std::vector<NamedState> makeStates() {
          program(kVertexShader, "void main() { paintFragment(); gl_FragDepth = 1e-4; }\n"),
          {}},
         {"program with a geometry shader", geometryProgram(), {}},
-        {"shader component", makeShaderPart, {}},
+        {"shader component",
+         configured<osg::ShaderAttribute>([](auto& part) {
+             part.setType(osg::StateAttribute::VERTEXPROGRAM);
+             part.addShader(
+                 new osg::Shader(osg::Shader::VERTEX, "void moved(inout vec4 place) { place.xy += 2.0; }\n"));
+         }),
+         {}},
         {"depth ALWAYS", made<osg::Depth>(osg::Depth::ALWAYS), {}},
         {"depth GREATER", made<osg::Depth>(osg::Depth::GREATER), {}},
         {"depth NEVER", made<osg::Depth>(osg::Depth::NEVER), {}},
@@ -232,12 +188,22 @@ std::vector<NamedState> makeStates() {
         {"cull face mode alone", nullptr, {GL_CULL_FACE}},
         {"front face CLOCKWISE", made<osg::FrontFace>(osg::FrontFace::CLOCKWISE), {}},
         {"front face COUNTER CLOCKWISE", made<osg::FrontFace>(osg::FrontFace::COUNTER_CLOCKWISE), {}},
-        {"no colours", [] { return makeMask(false); }, {}},
-        {"all colours", [] { return makeMask(true); }, {}},
-        {"no alpha", [] { return makeMask(true, false); }, {}},
-        {"stencil EQUAL", makeStencil, {}},
-        {"stencil that writes", makeWritingStencil, {}},
-        {"two-sided stencil", makeTwoSidedStencil, {}},
+        {"no colours", made<osg::ColorMask>(false, false, false, true), {}},
+        {"all colours", made<osg::ColorMask>(true, true, true, true), {}},
+        {"no alpha", made<osg::ColorMask>(true, true, true, false), {}},
+        {"stencil EQUAL", configured<osg::Stencil>([](auto& s) { s.setFunction(osg::Stencil::EQUAL, 1, ~0u); }), {}},
+        // it draws nothing, and marks where it would
+        {"stencil that writes",
+         configured<osg::Stencil>([](auto& stencil) {
+             stencil.setFunction(osg::Stencil::NEVER, 1, ~0u);
+             stencil.setOperation(osg::Stencil::REPLACE, osg::Stencil::REPLACE, osg::Stencil::REPLACE);
+         }),
+         {}},
+        {"two-sided stencil",
+         configured<osg::StencilTwoSided>([](auto& stencil) {
+             stencil.setFunction(osg::StencilTwoSided::FRONT, osg::StencilTwoSided::NEVER, 0, ~0u);
+         }),
+         {}},
         {"stencil mode alone", nullptr, {GL_STENCIL_TEST}},
         {"alpha NEVER", made<osg::AlphaFunc>(osg::AlphaFunc::NEVER, 0.5f), {}},
         {"alpha GREATER", made<osg::AlphaFunc>(osg::AlphaFunc::GREATER, 0.5f), {}},
@@ -249,10 +215,10 @@ std::vector<NamedState> makeStates() {
         {"polygon mode FILL", made<osg::PolygonMode>(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::FILL), {}},
         {"polygon offset", made<osg::PolygonOffset>(-1.0f, -1.0f), {}},
         {"polygon stipple", makeStipple, {}},
-        {"clip plane", makeClipPlane, {}},
+        {"clip plane", made<osg::ClipPlane>(0u, osg::Vec4d(1.0, 0.0, 0.0, 0.0)), {}},
         {"clip plane mode alone", nullptr, {kClipDistance}},
-        {"sample mask", makeSampleMask, {}},
-        {"multisample", makeMultisample, {}},
+        {"sample mask", configured<osg::SampleMaski>([](auto& mask) { mask.setMask(0u); }), {}},
+        {"multisample", configured<osg::Multisample>([](auto& m) { m.setSampleCoverage(0.5f, true); }), {}},
         {"alpha to coverage", nullptr, {GL_SAMPLE_ALPHA_TO_COVERAGE_ARB}},
         {"primitive restart", made<osg::PrimitiveRestartIndex>(4u), {kRestart}},
         {"clip control", made<osg::ClipControl>(osg::ClipControl::UPPER_LEFT), {}},

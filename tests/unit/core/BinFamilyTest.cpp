@@ -6,10 +6,6 @@
 #include "CoreTest.h"
 #include "FamilySamples.h"
 
-#ifdef OSGANALYTICBIN_SIMD
-#include <hwy/highway.h>
-#endif
-
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -77,11 +73,16 @@ void expectHorizonOfItsBins(const FamilyCase& c, Seen& seen) {
     }
 }
 
+FamilyVerdict verdictOf(const BinFamily& family, const PlaneSet& planes, PlaneMask undecided) {
+    FamilyVerdict verdict{};
+    family.classify(planes, undecided, verdict);
+    return verdict;
+}
+
 // A slot's reach from the origin is rounded up: a proof that is within rounding could be missed, but no trial comes so
 // near.
 void expectSeparationOfItsBins(const FamilyCase& c, Seen& seen) {
-    FamilyVerdict verdict{};
-    c.family.classify(c.planes, c.undecided, verdict);
+    const FamilyVerdict verdict = verdictOf(c.family, c.planes, c.undecided);
     for (std::size_t i = 0; i < c.slots.size(); ++i) {
         if (c.slots[i].kind != SlotKind::Exact || has(verdict.outside, i)) continue;
         ASSERT_TRUE(has(c.family.exact(), i));
@@ -91,8 +92,9 @@ void expectSeparationOfItsBins(const FamilyCase& c, Seen& seen) {
     }
 }
 
-Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
-    Random random(stream);
+TEST(BinFamily, GivesTheVerdictsOfItsBins) {
+    constexpr int trials = 40000;
+    Random random(130);
     Seen seen;
     for (int trial = 0; trial < trials; ++trial) {
         const FamilyCase c(random);
@@ -108,23 +110,14 @@ Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
     EXPECT_GT(seen.hidden, trials / 20);
     EXPECT_GT(seen.shown, trials / 20);
     EXPECT_GT(seen.separated, trials / 100);
-    return seen;
-}
-
-TEST(BinFamily, GivesTheVerdictsOfItsBins) {
-    expectAllVerdictsOfItsBins(130, 40000);
 }
 
 #ifdef OSGANALYTICBIN_SIMD
 
 // As single bins do: PlaneKernels.EveryTargetAgreesWithTheScalarForm.
 TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
-    std::vector<std::pair<std::int64_t, core::kernels::PlaneKernels>> targets;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        core::kernels::chooseKernels();
-        targets.emplace_back(target, core::kernels::activeKernels);
-    }
+    std::vector<std::pair<const char*, core::kernels::PlaneKernels>> targets;
+    forEachTarget([&](const char* name) { targets.emplace_back(name, core::kernels::activeKernels); });
     Random random(132);
     for (int trial = 0; trial < 20000; ++trial) {
         const FamilyCase c(random);
@@ -137,76 +130,60 @@ TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
         const std::uint64_t hidden = hiddenBy(core::kernels::kScalarKernels, expected);
         for (const auto& [target, kernels] : targets) {
             FamilyVerdict verdict{};
-            ASSERT_EQ(hiddenBy(kernels, verdict), hidden) << hwy::TargetName(target);
-            ASSERT_EQ(verdict.outside, expected.outside) << hwy::TargetName(target);
-            ASSERT_EQ(verdict.insideAll, expected.insideAll) << hwy::TargetName(target);
+            ASSERT_EQ(hiddenBy(kernels, verdict), hidden) << target;
+            ASSERT_EQ(verdict.outside, expected.outside) << target;
+            ASSERT_EQ(verdict.insideAll, expected.insideAll) << target;
             for (std::size_t i = 0; i < c.slots.size(); ++i)
-                ASSERT_EQ(verdict.undecided[i], expected.undecided[i]) << hwy::TargetName(target);
+                ASSERT_EQ(verdict.undecided[i], expected.undecided[i]) << target;
         }
     }
-    hwy::SetSupportedTargetsForTest(0);
     core::kernels::chooseKernels();
 }
 
 #endif
 
 TEST(BinFamily, SlotsWithoutABinAreNeverDecided) {
-    const GeodeticBin box = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const HorizonBin horizon(wgs84(), kOneDegree);
     BinFamily family(5);
-    family.set(1, ExactGeodeticBin(wgs84(), box));
-    family.setHorizon(1, HorizonBin(wgs84(), box));
-    family.setHorizon(2, HorizonBin(wgs84(), box));
+    family.set(1, ExactGeodeticBin(wgs84(), kOneDegree));
+    family.setHorizon(1, horizon);
+    family.setHorizon(2, horizon);
     const auto eye = HorizonEye::fromEye(wgs84(), 0.0, {-1e8, 0.0, 0.0});
     ASSERT_TRUE(eye);
     EXPECT_EQ(family.filled(), 0b10u);
     EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0b10u);
     for (const double offset : {-1e9, 1e9, kNaN}) {
-        PlaneSet planes;
-        planes.push_back({{1.0, 0.0, 0.0}, offset});
-        FamilyVerdict verdict{};
-        family.classify(planes, planes.all(), verdict);
+        const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, offset}});
+        const FamilyVerdict verdict = verdictOf(family, planes, planes.all());
         EXPECT_EQ(verdict.outside, offset < 0.0 ? 0b10u : 0u);
         EXPECT_EQ(verdict.insideAll, offset > 0.0 ? 0b10u : 0u);
         for (const std::size_t i : {0u, 2u, 3u, 4u}) EXPECT_EQ(verdict.undecided[i], planes.all());
     }
     family.clear(1);
-    PlaneSet planes;
-    planes.push_back({{1.0, 0.0, 0.0}, -1e9});
-    FamilyVerdict verdict{};
-    family.classify(planes, planes.all(), verdict);
+    const PlaneSet away = setOf({{{1.0, 0.0, 0.0}, -1e9}});
     EXPECT_EQ(family.filled(), 0u);
-    EXPECT_EQ(verdict.outside, 0u);
-    EXPECT_EQ(verdict.undecided[1], planes.all());
+    EXPECT_EQ(verdictOf(family, away, away.all()).outside, 0u);
+    EXPECT_EQ(verdictOf(family, away, away.all()).undecided[1], away.all());
     EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0u);
 }
 
 TEST(BinFamily, ABinThatIsSetAgainIsTheNewOne) {
-    const GeodeticBin wide = GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0});
-    const GeodeticBin small = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const ExactGeodeticBin wide(wgs84(), GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0}));
     BinFamily family(1);
-    family.set(0, core::ExactGeodeticBin(wgs84(), wide));
-    family.set(0, core::QuadraticBin(core::GeodeticMapping(wgs84()), core::parameterBox(small)));
-    PlaneSet planes;
-    planes.push_back({{1.0, 0.0, 0.0}, -6.3e6});  // only the small one is wholly beyond
-    FamilyVerdict verdict{};
-    family.classify(planes, planes.all(), verdict);
-    EXPECT_EQ(verdict.insideAll, 1u);
-    family.set(0, core::ExactGeodeticBin(wgs84(), wide));
-    family.classify(planes, planes.all(), verdict);
-    EXPECT_EQ(verdict.insideAll, 0u);
+    family.set(0, wide);
+    family.set(0, QuadraticBin(GeodeticMapping(wgs84()), core::parameterBox(kOneDegree)));
+    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, -6.3e6}});  // only the small one is wholly beyond
+    EXPECT_EQ(verdictOf(family, planes, 1).insideAll, 1u);
+    family.set(0, wide);
+    EXPECT_EQ(verdictOf(family, planes, 1).insideAll, 0u);
 }
 
 TEST(BinFamily, CopiesHaveNumbersOfTheirOwn) {
-    const GeodeticBin box = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
-    PlaneSet planes;
-    planes.push_back({{1.0, 0.0, 0.0}, -1e9});
-    const auto outside = [&](const BinFamily& family) {
-        FamilyVerdict verdict{};
-        family.classify(planes, planes.all(), verdict);
-        return verdict.outside;
-    };
+    const ExactGeodeticBin bin(wgs84(), kOneDegree);
+    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, -1e9}});
+    const auto outside = [&](const BinFamily& family) { return verdictOf(family, planes, 1).outside; };
     BinFamily family(2);
-    family.set(1, ExactGeodeticBin(wgs84(), box));
+    family.set(1, bin);
     BinFamily copy(family);
     BinFamily assigned(1);
     assigned = family;
@@ -215,7 +192,7 @@ TEST(BinFamily, CopiesHaveNumbersOfTheirOwn) {
     EXPECT_EQ(outside(copy), 0b10u);
     EXPECT_EQ(outside(assigned), 0b10u);
     copy.clear(1);
-    assigned.set(0, ExactGeodeticBin(wgs84(), box));
+    assigned.set(0, bin);
     EXPECT_EQ(outside(copy), 0u);
     EXPECT_EQ(outside(assigned), 0b11u);
     const BinFamily moved(std::move(assigned));
@@ -223,18 +200,13 @@ TEST(BinFamily, CopiesHaveNumbersOfTheirOwn) {
 }
 
 TEST(BinFamily, MayHaveNoSlotAndNoPlane) {
-    const BinFamily none(0);
-    FamilyVerdict verdict{};
-    PlaneSet planes;
-    none.classify(planes, 0, verdict);
-    EXPECT_EQ(verdict.outside | verdict.insideAll, 0u);
+    EXPECT_EQ(verdictOf(BinFamily(0), PlaneSet(), 0).outside, 0u);
+    EXPECT_EQ(verdictOf(BinFamily(0), PlaneSet(), 0).insideAll, 0u);
     BinFamily one(1);
-    one.set(0, ExactGeodeticBin(wgs84(), GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0})));
-    one.classify(planes, 0, verdict);
-    EXPECT_EQ(verdict.insideAll, 1u);
-    one.classify(planes, 0b10, verdict);
-    EXPECT_EQ(verdict.insideAll, 0u);
-    EXPECT_EQ(verdict.undecided[0], 0b10u);
+    one.set(0, ExactGeodeticBin(wgs84(), kOneDegree));
+    EXPECT_EQ(verdictOf(one, PlaneSet(), 0).insideAll, 1u);
+    EXPECT_EQ(verdictOf(one, PlaneSet(), 0b10).insideAll, 0u);
+    EXPECT_EQ(verdictOf(one, PlaneSet(), 0b10).undecided[0], 0b10u);
 }
 
 }  // namespace

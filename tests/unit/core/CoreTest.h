@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/BinFamily.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -25,6 +26,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#ifdef OSGANALYTICBIN_SIMD
+#include <hwy/highway.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -34,6 +38,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
 #include <support/GeodeticOracle.h>
 #include <support/Numbers.h>
@@ -67,5 +72,41 @@ using core::PlaneMask;
 using core::PlaneSet;
 using core::QuadraticBin;
 using core::Side;
+
+/// One by one degree beside the Gulf of Guinea.
+inline const GeodeticBin kOneDegree = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+
+inline PlaneSet setOf(std::initializer_list<Plane> planes) {
+    PlaneSet set;
+    for (const Plane& plane : planes) set.push_back(plane);
+    return set;
+}
+
+/// At this place, turned at random.
+inline core::Frame randomFrame(Random& random, const glm::dvec3& origin) {
+    core::Frame frame{origin, random.direction(), {}, {}};
+    frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
+    frame.z = glm::cross(frame.x, frame.y);
+    return frame;
+}
+
+/// Whether a range of distances holds the true one, but for the rounding of the truth.
+inline bool holds(const Interval& range, const RealRange& truth, Real rounding) {
+    return range.lower <= truth.lower + rounding && range.upper >= truth.upper - rounding;
+}
+
+#ifdef OSGANALYTICBIN_SIMD
+/// Runs a check, which is told the name, with the kernels of each target that this processor has.
+template <class Check>
+void forEachTarget(const Check& check) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        core::kernels::chooseKernels();
+        check(hwy::TargetName(target));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    core::kernels::chooseKernels();
+}
+#endif
 
 }  // namespace osgAnalyticBin::test

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
-// Oracles: long double evaluation, one published worked example, finite differences, dense sampling.
+//
+// Oracles: long double evaluation, one published worked example, finite differences, dense sampling. And the truth that
+// the other tests lean on is itself tested: the closed form against sampling and climbing, the inverse mapping against
+// the mapping.
 
 #include "CoreTest.h"
 
@@ -132,8 +134,7 @@ TEST(Ellipsoid, RadiiOfCurvatureAreThoseOfTheSurface) {
         const Real along = length(geodeticToEcef(ellipsoid, latitude + kStep, 0, 0) -
                                   geodeticToEcef(ellipsoid, latitude - kStep, 0, 0)) /
                            (2 * kStep);
-        const double sine = std::sin(latitude);
-        const double cosine = std::cos(latitude);
+        const double sine = std::sin(latitude), cosine = std::cos(latitude);
         ASSERT_NEAR(ellipsoid.meridionalRadius(sine, cosine) / static_cast<double>(along), 1.0, 1e-8);
         ASSERT_NEAR(ellipsoid.primeVerticalRadius(sine, cosine) * cosine, static_cast<double>(at.x), 1e-8);
     }
@@ -158,6 +159,42 @@ TEST(Ellipsoid, IsFlattenedRoundOrProlate) {
     EXPECT_NEAR(Ellipsoid(4.0, 5.0).eccentricitySquared(), 1.0 - 25.0 / 16.0, 1e-15);
     EXPECT_TRUE(Ellipsoid(4.0, 5.0) == Ellipsoid(4.0, 5.0));
     EXPECT_TRUE(Ellipsoid(4.0, 5.0) != Ellipsoid(5.0, 4.0));
+}
+
+// What climbing leaves below the true extremum, as a share of the bin's size: its last step is 2^-24 of a cell, in
+// altitude or at an end as well, where the bin's edge is met exactly.
+constexpr double kClimbingError = 1e-10;
+
+TEST(GeodeticOracle, ClosedFormHoldsEverySampleAndIsReached) {
+    Random random(1);
+    double worst = 0.0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const core::Ellipsoid ellipsoid = randomEllipsoid(random);
+        const BinKind kind = random.pick(kBinKinds);
+        const BinOracle oracle(ellipsoid, randomBin(random, kind));
+        const core::Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+        const RealRange truth = oracle.distanceRange(plane);
+        const RealRange sampled = sampledDistanceRange(ellipsoid, oracle.bin(), plane, 8);
+        const Real rounding = oracle.rounding(plane);
+        ASSERT_LE(truth.lower, sampled.lower + rounding) << nameOf(kind);
+        ASSERT_GE(truth.upper, sampled.upper - rounding) << nameOf(kind);
+        const double size = sizeOf(ellipsoid, oracle.bin());
+        const Real gap = std::max(sampled.lower - truth.lower, truth.upper - sampled.upper) - rounding;
+        worst = std::max(worst, static_cast<double>(gap) / size);
+        ASSERT_LE(gap, kClimbingError * size) << nameOf(kind);
+    }
+    RecordProperty("largestGapPerSize", std::to_string(worst));
+}
+
+TEST(GeodeticOracle, InverseReturnsToTheSamePoint) {
+    Random random(2);
+    for (int trial = 0; trial < 4000; ++trial) {
+        const core::Ellipsoid ellipsoid = randomEllipsoid(random);
+        const RealVector point = real(random.direction() * random.uniform(0.9, 1.1) * ellipsoid.equatorialRadius());
+        const RealGeodetic position = ecefToGeodetic(ellipsoid, point);
+        const RealVector back = geodeticToEcef(ellipsoid, position.latitude, position.longitude, position.altitude);
+        ASSERT_LE(length(back - point), 1e-11L);
+    }
 }
 
 }  // namespace

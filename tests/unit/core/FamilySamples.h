@@ -24,9 +24,7 @@ struct Slot {
 
 /// Planes most of which touch or nearly touch one of the bins: any number, now and then with what is no number.
 inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracles, core::PlaneSet& planes) {
-    constexpr std::array<double, 4> kNoNumbers{
-        std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-        -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
+    constexpr std::array<double, 4> kNoNumbers{kNaN, kInfinity, -kInfinity, std::numeric_limits<double>::max()};
     const int count = random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
     const bool allInside = random.chance(0.3);
     for (int i = 0; i < count; ++i) {

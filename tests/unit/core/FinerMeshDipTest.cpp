@@ -95,10 +95,8 @@ TEST(CrackBounds, FinerMeshesNearlyDipAsDeep) {
         // the part nearest to the equator
         const bool isNorth = tile.south() >= 0.0;
         const Tile part{tile.level + 1, 2 * tile.x, 2 * tile.y + (isNorth ? 0 : 1)};
-        const double south = part.south();
-        const double north = part.south() + part.height();
-        const double west = part.west();
-        const double east = part.west() + part.width();
+        const double south = part.south(), north = part.south() + part.height();
+        const double west = part.west(), east = part.west() + part.width();
         const double near = isNorth ? south : north;
         const std::array<RealVector, 3> half{post(ellipsoid, near, west, 0.0), post(ellipsoid, near, east, 0.0),
                                              post(ellipsoid, isNorth ? north : south, east, 0.0)};

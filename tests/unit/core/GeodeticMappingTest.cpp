@@ -161,38 +161,6 @@ TEST(GeodeticMapping, RemainderIsTight) {
     EXPECT_LE(worst, kLooseness);
 }
 
-double modelError(Random& random, const Ellipsoid& ellipsoid, const ParameterBox& box, int samples) {
-    const QuadraticBin model(GeodeticMapping(ellipsoid), box);
-    double worst = 0.0;
-    for (int i = 0; i < samples; ++i) {
-        const glm::dvec3 unit = randomStep(random, glm::dvec3(1.0));
-        const glm::dvec3 x = box.center + unit * box.halfSize;
-        worst = std::max(worst, gapBetween(model.modelPoint(unit), geodeticToEcef(ellipsoid, x.x, x.y, x.z)));
-    }
-    return worst;
-}
-
-TEST(GeodeticMapping, LargestModelErrorPerLevel) {
-    Random random(45);
-    std::printf("largest error of the second-order model, altitudes %.0f .. %.0f m\n", kTerrainAltitudes.lower,
-                kTerrainAltitudes.upper);
-    for (int level = 0; level <= 6; ++level) {
-        const double tileDeg = std::ldexp(kRootTileDeg, -level);
-        double worst = 0.0;
-        double worstRatio = 0.0;
-        for (int row = 0; row < (4 << level); ++row) {
-            const ParameterBox box = core::parameterBox(
-                GeodeticBin::fromDegrees({row * tileDeg, (row + 1) * tileDeg}, {0.0, tileDeg}, kTerrainAltitudes));
-            const double error = modelError(random, wgs84(), box, 300);
-            const double remainder = QuadraticBin(GeodeticMapping(wgs84()), box).remainder();
-            ASSERT_LE(error, remainder * (1.0 + 1e-9) + 1e-7);
-            worst = std::max(worst, error);
-            worstRatio = std::max(worstRatio, remainder / error);
-        }
-        std::printf("  %8.4f deg: %10.3f m; remainder bound / error: at most %.2f\n", tileDeg, worst, worstRatio);
-    }
-}
-
 TEST(GeodeticMapping, ParameterBoxHoldsTheBin) {
     Random random(46);
     for (int trial = 0; trial < 100000; ++trial) {

@@ -9,17 +9,15 @@
 
 #include <cstring>
 
-#ifdef OSGANALYTICBIN_SIMD
-#include <hwy/highway.h>
-#endif
-
 namespace osgAnalyticBin::test {
 namespace {
 
 constexpr int kRays = 24;
 
-void add(HorizonBuffer& buffer, const EarthColumn& column) {
+// Whether such a column alone hides a body.
+bool hides(HorizonBuffer buffer, const EarthColumn& column, const BinHull& body) {
     buffer.add(columnsOf(column));
+    return buffer.hides(buffer.outlineOf(body));
 }
 
 // The points within `reach` metres of a point.
@@ -120,7 +118,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
         const int count = random.integer(1, 30);
         for (int i = 0; i < count; ++i) {
             const EarthColumn column = randomColumn(random);
-            add(buffer, column);
+            buffer.add(columnsOf(column));
             columns.push_back(perturbed(random, column));
         }
         for (int i = 0; i < 300; ++i) {
@@ -169,10 +167,8 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     // this line rises to the right: in a strip it is lowest at the left end
     const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
     const auto hidesBelowTheLine = [&](double below) {
-        HorizonBuffer buffer(0.0, kAcross);
-        add(buffer, column);
-        const BinHull body = ball(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward), 1e-6);
-        return buffer.hides(buffer.outlineOf(body));
+        return hides(HorizonBuffer(0.0, kAcross), column,
+                     ball(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward), 1e-6));
     };
     EXPECT_FALSE(hidesBelowTheLine(0.95 * error));
     EXPECT_TRUE(hidesBelowTheLine(1.05 * error));
@@ -186,7 +182,7 @@ TEST(HorizonBuffer, HidesNothingThatEyesSeePastTheEndOfAWall) {
         glm::dvec3 eyes(0.0);
         eyes[axis] = 20.0;
         HorizonBuffer buffer(0.0, kAcross, 0.0, 0.0, eyes);
-        add(buffer, wall);
+        buffer.add(columnsOf(wall));
         for (const bool isAbove : {false, true}) {
             bool isHidden = false;
             for (double inside = 0.0; inside < 0.1; inside += 1e-4) {
@@ -259,17 +255,12 @@ TEST(HorizonBuffer, IsTheSameForAllInstructionSets) {
     std::vector<double> scalar;
     core::kernels::activeOcclusion = core::kernels::kScalarOcclusion;
     picture(scalar);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        core::kernels::chooseKernels();
+    forEachTarget([&](const char* target) {
         std::vector<double> vector;
         picture(vector);
         ASSERT_EQ(vector.size(), scalar.size());
-        EXPECT_EQ(std::memcmp(vector.data(), scalar.data(), vector.size() * sizeof(double)), 0)
-            << hwy::TargetName(target);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    core::kernels::chooseKernels();
+        EXPECT_EQ(std::memcmp(vector.data(), scalar.data(), vector.size() * sizeof(double)), 0) << target;
+    });
 }
 
 #endif
@@ -280,46 +271,28 @@ TEST(HorizonBuffer, HidesNothingJustInFrontOfEarth) {
     for (int trial = 0; trial < 2000; ++trial) {
         const double forward = random.logUniform(1e3, 4e3), share = random.logUniform(1e-5, 0.1);
         const EarthColumn column = wallAt(forward, {-0.5, 0.5}, {-0.5, 0.5}, 0.0);
-        const auto hides = [&](double at) {
-            HorizonBuffer buffer(0.0, kAcross);
-            add(buffer, column);
-            const BinHull body = ball(pointAt(0.0, 0.0, at), 1e-6);
-            return buffer.hides(buffer.outlineOf(body));
+        const auto isHidden = [&](double at) {
+            return hides(HorizonBuffer(0.0, kAcross), column, ball(pointAt(0.0, 0.0, at), 1e-6));
         };
-        ASSERT_FALSE(hides((1.0 - share) * forward)) << share;
-        ASSERT_TRUE(hides((1.0 + share) * forward)) << share;
+        ASSERT_FALSE(isHidden((1.0 - share) * forward)) << share;
+        ASSERT_TRUE(isHidden((1.0 + share) * forward)) << share;
     }
 }
 
-// If two depths are equal after rounding, the body that is drawn first stays visible.
+// If two depths are equal after rounding, the body that is drawn first stays visible: for the eye farthest back, too.
 TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     constexpr double kForward = 1000.0, kDepthStep = 1e-5;
     const EarthColumn column = wallAt(kForward, {-0.5, 0.5}, {-0.5, 0.5});
-    const auto hides = [&](double forward, double depthStep) {
-        HorizonBuffer buffer(0.0, kAcross, 0.0, depthStep);
-        add(buffer, column);
-        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
-        return buffer.hides(buffer.outlineOf(body));
+    const auto isHidden = [&](double forward, double depthStep, double back) {
+        return hides(HorizonBuffer(0.0, kAcross, 0.0, depthStep, {0.0, back, 0.0}), column,
+                     ball(pointAt(0.0, 0.0, forward), 1e-6));
     };
-    const double farthestEqual = 1.0 / (1.0 / kForward - kDepthStep);
-    EXPECT_TRUE(hides(kForward + 0.001, 0.0));
-    EXPECT_FALSE(hides(farthestEqual - 0.001, kDepthStep));
-    EXPECT_TRUE(hides(farthestEqual + 0.001, kDepthStep));
-}
-
-// Of two bodies behind a wall, the one that is farther by less than a step of depth is hidden from no eye of the box.
-TEST(HorizonBuffer, TellsDepthsApartForTheEyeFarthestBack) {
-    constexpr double kForward = 1000.0, kDepthStep = 1e-5, kBack = 200.0;
-    const EarthColumn column = wallAt(kForward, {-0.5, 0.5}, {-0.5, 0.5});
-    const auto hides = [&](double forward) {
-        HorizonBuffer buffer(0.0, kAcross, 0.0, kDepthStep, {0.0, kBack, 0.0});
-        add(buffer, column);
-        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
-        return buffer.hides(buffer.outlineOf(body));
-    };
-    const double farthestEqual = 1.0 / (1.0 / (kForward + kBack) - kDepthStep) - kBack;
-    EXPECT_FALSE(hides(farthestEqual - 0.01));
-    EXPECT_TRUE(hides(farthestEqual + 0.01));
+    EXPECT_TRUE(isHidden(kForward + 0.001, 0.0, 0.0));
+    for (const double back : {0.0, 200.0}) {
+        const double farthestEqual = 1.0 / (1.0 / (kForward + back) - kDepthStep) - back;
+        EXPECT_FALSE(isHidden(farthestEqual - 0.01, kDepthStep, back));
+        EXPECT_TRUE(isHidden(farthestEqual + 0.01, kDepthStep, back));
+    }
 }
 
 TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
@@ -344,23 +317,20 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     };
     const BinHull behind = bodyOf(core::GeodeticBin({0.005, 0.007}, {-0.001, 0.003}, {0.0, 500.0}));
     const BinHull behindTheEye = bodyOf(core::GeodeticBin({-0.006, -0.004}, {-0.001, 0.003}, {0.0, 500.0}));
-    const auto hides = [&](const EarthColumn& column, const BinHull& body) {
-        HorizonBuffer buffer(glm::length(eye.origin), kAcross);
-        add(buffer, column);
-        return buffer.hides(buffer.outlineOf(body));
+    const auto isHidden = [&](const EarthColumn& column, const BinHull& body) {
+        return hides(HorizonBuffer(glm::length(eye.origin), kAcross), column, body);
     };
-    EXPECT_TRUE(hides(wall(0.002, 0.003), behind));
-    EXPECT_FALSE(hides(wall(0.007, 0.008), behind));  // farther
+    EXPECT_TRUE(isHidden(wall(0.002, 0.003), behind));
+    EXPECT_FALSE(isHidden(wall(0.007, 0.008), behind));  // farther
     HorizonBuffer nearPlaneIsFar(glm::length(eye.origin), kAcross);
     EXPECT_TRUE(nearPlaneIsFar.raiseLowest(0.0));
-    add(nearPlaneIsFar, wall(0.002, 0.003));
-    EXPECT_FALSE(nearPlaneIsFar.hides(nearPlaneIsFar.outlineOf(behind)));
-    EXPECT_FALSE(hides(wall(0.002, 0.0056), behind));  // partly
-    EXPECT_FALSE(hides(wall(-0.001, 0.003), behind));  // about the eye
-    EXPECT_FALSE(hides(wall(-0.003, -0.002), behindTheEye));
+    EXPECT_FALSE(hides(nearPlaneIsFar, wall(0.002, 0.003), behind));
+    EXPECT_FALSE(isHidden(wall(0.002, 0.0056), behind));  // partly
+    EXPECT_FALSE(isHidden(wall(-0.001, 0.003), behind));  // about the eye
+    EXPECT_FALSE(isHidden(wall(-0.003, -0.002), behindTheEye));
     EarthColumn broken = wall(0.002, 0.003);
     broken.top[2].y = std::nan("");
-    EXPECT_FALSE(hides(broken, behind));
+    EXPECT_FALSE(isHidden(broken, behind));
     // an error that is forgotten, and corners as near as rounding allows
     EarthColumn close = wall(0.002, 0.003);
     close.error = 0.0;
@@ -368,17 +338,14 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         close.top[i] = {i == 0 ? -1e-8 : 1e-8, 1e-8, 1e-8};
         close.bottom[i] = {i == 0 ? -1e-8 : 1e-8, 1e-8, -1e-8};
     }
-    EXPECT_FALSE(hides(close, behind));
-    BinHull endless = behind;
-    endless.reach = -1.0;
-    EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
-    endless.reach = std::nan("");
-    EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
-    BinHull nowhere = behind;
-    nowhere.z[5] = std::nan("");
-    EXPECT_FALSE(hides(wall(0.002, 0.003), nowhere));
-    endless.reach = 1e9;
-    EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
+    EXPECT_FALSE(isHidden(close, behind));
+    BinHull endless = behind, nowhere = behind;
+    for (const double reach : {-1.0, kNaN, 1e9}) {
+        endless.reach = reach;
+        EXPECT_FALSE(isHidden(wall(0.002, 0.003), endless)) << reach;
+    }
+    nowhere.z[5] = kNaN;
+    EXPECT_FALSE(isHidden(wall(0.002, 0.003), nowhere));
 }
 
 }  // namespace

@@ -47,9 +47,7 @@ TEST(HullSeparation, NeverPartsABinFromAPointWhereTwoPlanesNearlyCancel) {
 TEST(HullSeparation, FindsNearlyAllPartedHulls) {
     constexpr double kBar = 99.0;
     Random random(324);
-    int apart = 0;
-    int found = 0;
-    int contradictions = 0;
+    int apart = 0, found = 0, contradictions = 0;
     for (int trial = 0; trial < 200000; ++trial) {
         const GeodeticBin bin = randomTile(random, random.integer(0, 8), kTerrainAltitudes);
         const View view = randomView(random, wgs84(), bin, randomPointWithin(random, wgs84(), bin, 0.0));
@@ -71,8 +69,7 @@ TEST(HullSeparation, FindsNearlyAllPartedHulls) {
 }
 
 TEST(HullSeparation, NeedsTwoPlanesAndNumbers) {
-    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
-    const ExactGeodeticBin exact(wgs84(), bin);
+    const ExactGeodeticBin exact(wgs84(), kOneDegree);
     const Plane away{{1.0, 0.0, 0.0}, -1e8};
     const std::vector<Plane> planes{away, away, {{kNaN, 0.0, 0.0}, 0.0}, {{0.0, 1.0, 0.0}, kNaN}};
     EXPECT_FALSE(isSeparated(exact, planes, 4, 0u));
@@ -87,8 +84,7 @@ TEST(HullSeparation, NeedsTwoPlanesAndNumbers) {
 }
 
 TEST(HullSeparation, NeedsUnitNormals) {
-    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
-    const ExactGeodeticBin exact(wgs84(), bin);
+    const ExactGeodeticBin exact(wgs84(), kOneDegree);
     View view;
     view.eye = {6.4e6, 0.0, 0.0};
     view.halfWidth = 3.0;

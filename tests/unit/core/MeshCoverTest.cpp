@@ -10,7 +10,6 @@
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 
 namespace osgAnalyticBin::test {
-
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
@@ -131,21 +130,15 @@ TEST(MeshCover, IsFilledByRoundedVertices) {
 }
 
 TEST(MeshCover, IsThatOfAMap) {
-    core::EcefMesh mesh;
+    constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
+    Random random(7);
     const core::Ellipsoid plane = core::Ellipsoid::plane();
-    for (int row = 0; row < 5; ++row) {
-        for (int column = 0; column < 5; ++column)
-            addVertex(mesh, {500000.0 + 250.0 * column, 4600000.0 + 250.0 * row, 30.0 * ((row * column) % 3)});
-    }
-    for (std::uint32_t row = 0; row < 4; ++row) {
-        for (std::uint32_t column = 0; column < 4; ++column) {
-            const std::uint32_t a = 5 * row + column;
-            for (const std::uint32_t corner : {a, a + 1, a + 6, a, a + 6, a + 5}) mesh.triangles.push_back(corner);
-        }
-    }
+    const core::GeodeticBin extents({4600000.0 / kUnits, 4601000.0 / kUnits}, {500000.0 / kUnits, 501000.0 / kUnits},
+                                    {0.0, 60.0});
+    const core::EcefMesh mesh = gridMesh(random, plane, extents, 4);
     const core::MeshCover cover = core::MeshCover::of(plane, mesh);
     EXPECT_TRUE(cover.isFilled);
-    EXPECT_NEAR(cover.place.longitude().width() * core::Ellipsoid::kMapUnitsInRadian, 1000.0, 1e-3);
+    EXPECT_NEAR(cover.place.longitude().width() * kUnits, 1000.0, 1e-3);
     for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3)
         EXPECT_FALSE(core::MeshCover::of(plane, without(mesh, first)).isFilled);
 }
@@ -203,5 +196,4 @@ TEST(MeshCover, HasAFrontFaceOnEachNormalOfAFilledPlace) {
 }
 
 }  // namespace
-
 }  // namespace osgAnalyticBin::test

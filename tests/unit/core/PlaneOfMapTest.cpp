@@ -80,8 +80,7 @@ TEST(PlaneOfMap, TellsBoxesFromPlanesToRounding) {
         EXPECT_TRUE(side == Side::Inside || moved.lower <= 0.5 * rounding);
         core::BinFamily family(3);
         family.set(1, bin);
-        core::PlaneSet planes;
-        planes.push_back(plane);
+        const core::PlaneSet planes = setOf({plane});
         core::FamilyVerdict verdict{};
         family.classify(planes, 1, verdict);
         EXPECT_EQ((verdict.outside >> 1 & 1) != 0, side == Side::Outside);

@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
+//
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
-// kernels bit for bit.
+// kernels bit for bit. And the plane's sign convention and the mask semantics of classify().
 
 #include "CoreTest.h"
 #include "FamilySamples.h"
-
-#include <osgAnalyticBin/core/PlaneSet.h>
-
-#ifdef OSGANALYTICBIN_SIMD
-#include <hwy/highway.h>
-#endif
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -39,14 +33,10 @@ struct PlaneSetCase {
 
 template <class Bin>
 void expectVerdictsOfSinglePlanes(const Bin& bin, const PlaneSet& planes, PlaneMask undecided) {
-    PlaneMask left = undecided;
+    PlaneMask left = undecided, expectedLeft = undecided;
     const Side side = core::classify(bin, planes, left);
-    PlaneMask expectedLeft = undecided;
-    const Side expected = core::classify<Bin, PlaneSet>(bin, planes, planes.size(), expectedLeft);
-    ASSERT_EQ(side, expected);
-    if (side != Side::Outside) {
-        ASSERT_EQ(left, expectedLeft);
-    }
+    ASSERT_EQ(side, (core::classify<Bin, PlaneSet>(bin, planes, planes.size(), expectedLeft)));
+    ASSERT_TRUE(side == Side::Outside || left == expectedLeft);
     // What is cleared is inside, whatever the result.
     ASSERT_EQ(left & ~undecided, 0u);
     for (std::size_t i = 0; i < core::kMaxPlanes; ++i) {
@@ -89,9 +79,8 @@ TEST(PlaneSet, ReturnsItsPlanes) {
 }
 
 TEST(PlaneSet, PlanesThatAreNotThereStayUndecided) {
-    const ExactGeodeticBin bin(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
-    PlaneSet planes;
-    planes.push_back({{1.0, 0.0, 0.0}, 1e9});
+    const ExactGeodeticBin bin(wgs84(), kOneDegree);
+    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, 1e9}});
     PlaneMask undecided = 0b101;
     EXPECT_EQ(core::classify(bin, planes, undecided), Side::Straddling);
     EXPECT_EQ(undecided, PlaneMask{0b100});
@@ -110,8 +99,7 @@ template <class Bin>
 void expectUndecidedInASet(const Bin& bin, const Plane& plane) {
     expectUndecided(bin, plane);
     const auto classifyInASet = [&] {
-        PlaneSet planes;
-        planes.push_back(plane);
+        const PlaneSet planes = setOf({plane});
         PlaneMask undecided = planes.all();
         EXPECT_EQ(core::classify(bin, planes, undecided), Side::Straddling);
         EXPECT_EQ(undecided, planes.all());
@@ -120,35 +108,31 @@ void expectUndecidedInASet(const Bin& bin, const Plane& plane) {
 }
 
 TEST(PlaneSet, PlanesWithoutAUnitNormalDecideNothing) {
-    const core::GeodeticBin box = core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
-    const core::GeodeticBin wide = core::GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0});
-    const core::GeodeticMapping mapping(wgs84());
+    const GeodeticMapping mapping(wgs84());
+    const ExactGeodeticBin exact(wgs84(), kOneDegree),
+        wide(wgs84(), GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0}));
     for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
         for (const double offset : {-1e13, 1e13}) {
             const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), offset};
-            expectUndecidedInASet(ExactGeodeticBin(wgs84(), box), plane);
-            expectUndecidedInASet(QuadraticBin(mapping, core::parameterBox(box)), plane);
-            expectUndecidedInASet(ExactGeodeticBin(wgs84(), wide), plane);
+            expectUndecidedInASet(exact, plane);
+            expectUndecidedInASet(QuadraticBin(mapping, core::parameterBox(kOneDegree)), plane);
+            expectUndecidedInASet(wide, plane);
         }
     }
     // to the tolerance they do
-    for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9}) {
-        const Plane away{factor * glm::dvec3(0.6, 0.0, 0.8), -1e8};
-        EXPECT_EQ(ExactGeodeticBin(wgs84(), box).classify(away), Side::Outside);
-    }
+    for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9})
+        EXPECT_EQ(exact.classify({factor * glm::dvec3(0.6, 0.0, 0.8), -1e8}), Side::Outside);
 }
 
 TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
-    const ExactGeodeticBin bin(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
-    const Plane around{{1.0, 0.0, 0.0}, 1e9};
-    const Plane away{{1.0, 0.0, 0.0}, -1e9};
+    const ExactGeodeticBin bin(wgs84(), kOneDegree);
+    const Plane around{{1.0, 0.0, 0.0}, 1e9}, away{{1.0, 0.0, 0.0}, -1e9};
     PlaneSet full;
     for (std::size_t i = 0; i < core::kMaxPlanes; ++i) full.push_back(around);
     PlaneMask undecided = full.all();
     EXPECT_EQ(core::classify(bin, full, undecided), Side::Inside);
     const auto overflow = [&](const Plane& first) {
-        PlaneSet planes;
-        planes.push_back(first);
+        PlaneSet planes = setOf({first});
         while (planes.size() < core::kMaxPlanes) planes.push_back(around);
         for (int i = 0; i < 3; ++i) planes.push_back(around);
         EXPECT_EQ(planes.size(), core::kMaxPlanes);
@@ -171,14 +155,8 @@ TEST(PlaneKernels, AreThereBeforeAllElse) {
 #ifdef OSGANALYTICBIN_SIMD
 
 TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
-    std::vector<std::pair<std::int64_t, core::kernels::PlaneKernels>> targets;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        core::kernels::chooseKernels();
-        targets.emplace_back(target, core::kernels::activeKernels);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    core::kernels::chooseKernels();
+    std::vector<std::pair<const char*, core::kernels::PlaneKernels>> targets;
+    forEachTarget([&](const char* name) { targets.emplace_back(name, core::kernels::activeKernels); });
     Random random(122);
     for (int trial = 0; trial < 200000 && !HasFatalFailure(); ++trial) {
         const PlaneSetCase c(random);
@@ -187,7 +165,7 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
             const PlaneSides scalar = core::kernels::kScalarKernels.bin(numbers, isExact, c.planes.blocks(), mask);
             for (const auto& [target, kernels] : targets) {
                 const PlaneSides sides = kernels.bin(numbers, isExact, c.planes.blocks(), mask);
-                ASSERT_EQ(sides.both, scalar.both) << hwy::TargetName(target) << ", trial " << trial;
+                ASSERT_EQ(sides.both, scalar.both) << target << ", trial " << trial;
             }
         };
         expectTheSame(c.exact.numbers().data(), true);
@@ -197,6 +175,71 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
 }
 
 #endif
+
+using core::classify;
+using core::kMaxPlanes;
+
+// Answers by the plane's offset.
+struct ScriptedBin {
+    [[nodiscard]] Side classify(const Plane& plane) const noexcept {
+        if (plane.offset < 0.0) return Side::Outside;
+        return plane.offset > 0.0 ? Side::Inside : Side::Straddling;
+    }
+};
+
+Plane answering(Side side) {
+    const double offset = side == Side::Outside ? -1.0 : (side == Side::Inside ? 1.0 : 0.0);
+    return {{0.0, 0.0, 1.0}, offset};
+}
+
+TEST(Plane, NormalPointsIntoTheFrustum) {
+    const Plane plane{{1.0, 0.0, 0.0}, -2.0};
+    EXPECT_EQ(plane.distance({5.0, 7.0, 9.0}), 3.0);
+    EXPECT_EQ(plane.distance({1.0, 7.0, 9.0}), -1.0);
+    EXPECT_EQ(plane.flipped().distance({5.0, 7.0, 9.0}), -3.0);
+}
+
+TEST(Classify, NothingIsInsideOfMorePlanesThanTheMaskNames) {
+    const ScriptedBin bin;
+    std::vector<Plane> planes(kMaxPlanes, answering(Side::Inside));
+    PlaneMask undecided = ~PlaneMask{0};
+    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Inside);
+    planes.push_back(answering(Side::Outside));
+    undecided = ~PlaneMask{0};
+    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Straddling);
+    planes.front() = answering(Side::Outside);
+    undecided = ~PlaneMask{0};
+    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Outside);
+}
+
+TEST(Classify, AgreesWithThePlanesOneByOne) {
+    Random random(20);
+    constexpr std::array<Side, 3> kSides{Side::Outside, Side::Straddling, Side::Inside};
+    for (int trial = 0; trial < 10000; ++trial) {
+        std::vector<Plane> planes;
+        const int count = random.integer(0, 8);
+        for (int i = 0; i < count; ++i) planes.push_back(answering(random.pick(kSides)));
+        // planes that are not there stay undecided
+        const auto before = static_cast<PlaneMask>(random.integer(0, 255));
+        bool outside = false, straddling = before >> count != 0;
+        for (int i = 0; i < count; ++i) {
+            if (!(before >> i & 1u)) continue;
+            outside = outside || planes[static_cast<std::size_t>(i)].offset < 0.0;
+            straddling = straddling || planes[static_cast<std::size_t>(i)].offset == 0.0;
+        }
+        PlaneMask undecided = before;
+        const Side expected = outside ? Side::Outside : (straddling ? Side::Straddling : Side::Inside);
+        ASSERT_EQ(classify(ScriptedBin{}, planes, planes.size(), undecided), expected);
+        ASSERT_EQ(undecided & ~before, 0u) << "no bit is ever set";
+        if (!outside) {
+            for (int i = 0; i < 8; ++i) {
+                const bool undecidedNow = undecided >> i & 1u;
+                const bool isOpen = i >= count || planes[static_cast<std::size_t>(i)].offset == 0.0;
+                ASSERT_EQ(undecidedNow, (before >> i & 1u) != 0 && isOpen);
+            }
+        }
+    }
+}
 
 }  // namespace
 }  // namespace osgAnalyticBin::test

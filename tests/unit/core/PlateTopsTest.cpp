@@ -7,6 +7,8 @@
 #include "MeshSamples.h"
 #include "TriangleSamples.h"
 
+#include <tuple>
+
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -76,11 +78,23 @@ int expectBelowTops(Random& random, const Tile& tile, const EcefMesh& drawn, con
     return known;
 }
 
+// How many tops are known of so many random tiles. `make(tile)` returns what is drawn, its plates, and how deep skirts
+// are.
+template <class Make>
+int knownTops(Random& random, int trials, const Make& make) {
+    int known = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        const Tile tile(random);
+        const std::tuple<EcefMesh, GroundPlates, double> made = make(tile);
+        known += expectBelowTops(random, tile, std::get<0>(made), std::get<1>(made), std::get<2>(made));
+    }
+    return known;
+}
+
 TEST(GroundPlates, TopsAreAboveTheMesh) {
     Random random(1730);
-    int known = 0, closed = 0;
-    for (int trial = 0; trial < 500; ++trial) {
-        const Tile tile(random);
+    int closed = 0;
+    const int known = knownTops(random, 500, [&](const Tile& tile) {
         EcefMesh mesh = tile.mesh;
         const double most = tile.extents.latitude().width() / tile.cells * 1e5 * random.logUniform(1e-7, 0.1);
         for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i)
@@ -89,32 +103,25 @@ TEST(GroundPlates, TopsAreAboveTheMesh) {
         const bool isClosed = !random.chance(0.3);
         if (!isClosed) std::swap(mesh.triangles[0], mesh.triangles[1]);
         closed += isClosed ? 1 : 0;
-        known += expectBelowTops(random, tile, mesh, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
-    }
+        return std::tuple(mesh, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
+    });
     EXPECT_GT(known, closed * 12);
 }
 
 TEST(GroundPlates, TopsAreAboveTheMeshOfAGrid) {
     Random random(1731);
-    int known = 0;
-    for (int trial = 0; trial < 500; ++trial) {
-        const Tile tile(random);
-        known += expectBelowTops(random, tile, tile.mesh, tile.gridPlates(0.0), 0.0);
-    }
-    EXPECT_GT(known, 500 * 12);
+    const auto make = [](const Tile& tile) { return std::tuple(tile.mesh, tile.gridPlates(0.0), 0.0); };
+    EXPECT_GT(knownTops(random, 500, make), 500 * 12);
 }
 
 // Skirts that hang or stand, as they are in the mesh.
 TEST(GroundPlates, TopsAreAboveSkirts) {
     Random random(1732);
-    int known = 0;
-    for (int trial = 0; trial < 500; ++trial) {
-        const Tile tile(random);
+    const int known = knownTops(random, 500, [&](const Tile& tile) {
         const double depth = random.sign() * tile.relief * random.logUniform(0.01, 0.9);
         const EcefMesh mesh = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
-        const GroundPlates plates = platesOf(tile.ellipsoid, mesh, tile.extents);
-        known += expectBelowTops(random, tile, mesh, plates, std::abs(depth));
-    }
+        return std::tuple(mesh, platesOf(tile.ellipsoid, mesh, tile.extents), std::abs(depth));
+    });
     EXPECT_GT(known, 2000);
 }
 
@@ -122,39 +129,33 @@ TEST(GroundPlates, TopsAreAboveSkirts) {
 // tile is wide at most; tops are known for half of that.
 TEST(GroundPlates, TopsAreAboveSkirtsOfAGrid) {
     Random random(1733);
-    int known = 0;
-    for (int trial = 0; trial < 500; ++trial) {
-        const Tile tile(random);
+    const int known = knownTops(random, 500, [&](const Tile& tile) {
         const double depth = tile.extents.latitude().width() * tile.ellipsoid.polarRadius() *
                              (random.chance(0.5) ? random.uniform(0.0, 1.0) : random.logUniform(0.001, 0.1));
         EcefMesh drawn = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
         const glm::dvec3 aside = 0.044 * depth * random.direction();
         for (std::size_t i = tile.mesh.size(); i < drawn.size(); ++i) moveVertex(drawn, i, aside);
-        known += expectBelowTops(random, tile, drawn, tile.gridPlates(depth), depth);
-    }
+        return std::tuple(drawn, tile.gridPlates(depth), depth);
+    });
     EXPECT_GT(known, 2000);
 }
 
 // A line counts by its ends, and may run through all parts.
 TEST(GroundPlates, TopsAreAboveLines) {
     Random random(1734);
-    int known = 0;
-    for (int trial = 0; trial < 300; ++trial) {
-        const Tile tile(random);
+    const auto in = [&](const Interval& range) { return random.uniform(range.lower, range.upper); };
+    const int known = knownTops(random, 300, [&](const Tile& tile) {
         EcefMesh mesh = tile.mesh;
-        for (int end = 0; end < 2; ++end) {
-            addVertex(mesh, tile.ellipsoid.toEcef(
-                                {random.uniform(tile.extents.latitude().lower, tile.extents.latitude().upper),
-                                 random.uniform(tile.extents.longitude().lower, tile.extents.longitude().upper),
-                                 random.uniform(0.0, 2.0) * tile.relief}));
-            const auto last = static_cast<std::uint32_t>(mesh.size() - 1);
-            mesh.triangles.insert(mesh.triangles.end(), {last, last, last});
+        const auto first = static_cast<std::uint32_t>(mesh.size());
+        for (const std::uint32_t end : {first, first + 1}) {
+            addVertex(mesh, tile.ellipsoid.toEcef({in(tile.extents.latitude()), in(tile.extents.longitude()),
+                                                   random.uniform(0.0, 2.0) * tile.relief}));
+            mesh.triangles.insert(mesh.triangles.end(), {end, end, end});
         }
         EcefMesh drawn = mesh;
-        const auto last = static_cast<std::uint32_t>(mesh.size() - 1);
-        drawn.triangles.insert(drawn.triangles.end(), {last - 1, last, last});
-        known += expectBelowTops(random, tile, drawn, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
-    }
+        drawn.triangles.insert(drawn.triangles.end(), {first, first + 1, first + 1});
+        return std::tuple(drawn, platesOf(tile.ellipsoid, mesh, tile.extents), 0.0);
+    });
     EXPECT_GT(known, 1200);
 }
 

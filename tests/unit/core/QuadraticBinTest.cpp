@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
-// Oracle: the closed form of the bin's range (tested itself in GeodeticOracleTest). Ten million more pairs of bin and
-// plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
+//
+// Oracle: the closed form of the bin's range (tested itself in EllipsoidTest). Ten million more pairs of bin and plane:
+// Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
 
 #include "BinChecks.h"
 #include "CoreTest.h"
@@ -31,9 +31,7 @@ TEST(QuadraticBin, DistanceRangeHoldsTheTrueRangeBesideTheAxis) {
         const glm::dvec3 across = glm::normalize(random.direction() * glm::dvec3(1.0, 1.0, 1e-6));
         const Plane plane{across, 0.0};
         const Interval range = quadratic(wgs84(), bin).distanceRange(plane);
-        const RealRange truth = oracle.distanceRange(plane);
-        ASSERT_LE(range.lower, truth.lower + oracle.rounding(plane)) << distance;
-        ASSERT_GE(range.upper, truth.upper - oracle.rounding(plane)) << distance;
+        ASSERT_TRUE(holds(range, oracle.distanceRange(plane), oracle.rounding(plane))) << distance;
     }
 }
 
@@ -63,11 +61,9 @@ double largestExcess(Random& random, int level, Interval altitude, int trials) {
     return worst / (std::ldexp(kRootTileDeg, -level) * kRadiansPerDegree * wgs84().equatorialRadius());
 }
 
+// The largest excess of either end, as a share of the tile's size along the equator, with terrain's altitudes. High
+// layers are looser: their remainder has altitude times angle squared.
 TEST(QuadraticBin, IsTight) {
-    // Largest excess of either end, as a share of the tile's size along the equator, with terrain's altitudes. High
-    // layers are looser: their remainder has altitude times angle squared.
-    constexpr double kAtRoot = 0.03;
-    constexpr double kAtSecondLevel = 0.002;
     Random random(65);
     std::printf("excess over the true range / tile size: altitudes %.0f .. %.0f m | %.0f .. %.0f m\n",
                 kTerrainAltitudes.lower, kTerrainAltitudes.upper, kAllAltitudes.lower, kAllAltitudes.upper);
@@ -75,12 +71,7 @@ TEST(QuadraticBin, IsTight) {
         const double excess = largestExcess(random, level, kTerrainAltitudes, 40000);
         const double high = largestExcess(random, level, kAllAltitudes, 40000);
         std::printf("  %8.4f deg: %.5f %% | %.5f %%\n", std::ldexp(kRootTileDeg, -level), 100.0 * excess, 100.0 * high);
-        if (level == 0) {
-            EXPECT_LE(excess, kAtRoot);
-        }
-        if (level == 2) {
-            EXPECT_LE(excess, kAtSecondLevel);
-        }
+        EXPECT_LE(excess, level < 2 ? 0.03 : 0.002) << level;
     }
 }
 
@@ -125,8 +116,7 @@ TEST(QuadraticBin, HoldsNearTheCentresOfCurvature) {
     for (int trial = 0; trial < 200000; ++trial) {
         const Ellipsoid ellipsoid = randomEllipsoid(random);
         const double latitude = random.uniform(-kHalfPi, kHalfPi);
-        const double sine = std::sin(latitude);
-        const double cosine = std::cos(latitude);
+        const double sine = std::sin(latitude), cosine = std::cos(latitude);
         const double radius =
             random.chance(0.5) ? ellipsoid.primeVerticalRadius(sine, cosine) : ellipsoid.meridionalRadius(sine, cosine);
         const double altitude = random.sign() * random.logUniform(1e-9, 1e3) - radius;
@@ -150,6 +140,46 @@ TEST(QuadraticBin, HoldsNearTheCentresOfCurvature) {
         }
     }
     for (const int count : verdicts) EXPECT_GT(count, 1000) << "every verdict must occur, or nothing is tested";
+}
+
+using core::quadraticOrExact;
+
+bool isExact(const core::QuadraticOrExact& bin) {
+    return std::holds_alternative<core::ExactGeodeticBin>(bin);
+}
+
+TEST(QuadraticOrExact, WideTilesAreExactAndSmallOnesAreNot) {
+    Random random(130);
+    for (int trial = 0; trial < 2000; ++trial) {
+        for (int level = 0; level <= kDeepestLevel; ++level) {
+            const GeodeticBin bin = randomTile(random, level, kTerrainAltitudes);
+            ASSERT_EQ(isExact(quadraticOrExact(wgs84(), bin)), level < 2) << level;
+        }
+    }
+    EXPECT_TRUE(isExact(quadraticOrExact(wgs84(), GeodeticBin::wholeGlobe(kTerrainAltitudes))));
+}
+
+TEST(QuadraticOrExact, BelowTheCentresOfCurvatureOnlyTheModelHolds) {
+    EXPECT_FALSE(isExact(quadraticOrExact(wgs84(), GeodeticBin::wholeGlobe({-6.37e6, 0.0}))));
+}
+
+TEST(QuadraticOrExact, RangeExceedsTheTruthByTheStatedPartOfTheExtent) {
+    Random random(131);
+    double largest = 0.0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const BinOracle oracle(randomEllipsoid(random), randomBin(random));
+        const Plane plane{random.direction(), 0.0};
+        const Interval range = std::visit([&](const auto& form) { return form.distanceRange(plane); },
+                                          quadraticOrExact(oracle.ellipsoid(), oracle.bin()));
+        const RealRange truth = oracle.distanceRange(plane);
+        ASSERT_TRUE(holds(range, truth, oracle.rounding(plane)));
+        const double extent = sizeOf(oracle.ellipsoid(), oracle.bin()) * 1.1;
+        const auto excess = static_cast<double>(std::max(truth.lower - range.lower, range.upper - truth.upper));
+        ASSERT_LE(excess, 2.0 * core::kLargestRelativeRemainder * extent + 1e-6);
+        if (extent > 1.0) largest = std::max(largest, (excess - 1e-6) / extent);
+    }
+    std::printf("largest excess: %.3f %% of the extent (promised %.3f %%)\n", 100.0 * largest,
+                200.0 * core::kLargestRelativeRemainder);
 }
 
 }  // namespace

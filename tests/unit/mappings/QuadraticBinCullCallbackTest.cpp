@@ -45,6 +45,16 @@ struct Pipe {
     }
 };
 
+// A node that a callback culls, and whose visits are noted.
+osg::ref_ptr<osg::Group> makePart(QuadraticBinCullCallback* callback, const std::string& name,
+                                  std::set<std::string>& visited) {
+    osg::ref_ptr<osg::Group> part = new osg::Group;
+    callback->setNestedCallback(new test::VisitRecorder(name, visited));
+    part->setCullCallback(callback);
+    part->setCullingActive(false);
+    return part;
+}
+
 // Quarters of pipes at random places within 100 m, and samples of each.
 struct Pipes {
     explicit Pipes(test::Random& random) {
@@ -52,7 +62,8 @@ struct Pipes {
             const core::AutodiffMapping mapping(
                 Pipe::along(random.direction(), random.direction(), random.direction() * random.uniform(0.0, 100.0)));
             const core::ParameterBox box{{random.uniform(0.0, 6.0), 0.5, 0.0}, {0.785, 0.02, 4.0}};
-            add(std::to_string(i), core::QuadraticBin(mapping, box));
+            root->addChild(
+                makePart(new QuadraticBinCullCallback(core::QuadraticBin(mapping, box)), std::to_string(i), visited));
             points.emplace_back();
             for (int k = 0; k < 1000; ++k) {
                 const glm::dvec3 unit(k % 10 / 4.5 - 1.0, k / 10 % 10 / 4.5 - 1.0, k / 100 / 4.5 - 1.0);
@@ -61,19 +72,9 @@ struct Pipes {
         }
     }
 
-    void add(const std::string& name, const core::QuadraticBin& bin) {
-        const osg::ref_ptr<osg::Group> part = new osg::Group;
-        const osg::ref_ptr<QuadraticBinCullCallback> callback = new QuadraticBinCullCallback(bin);
-        callback->setNestedCallback(new test::VisitRecorder(name, visited));
-        part->setCullCallback(callback.get());
-        part->setCullingActive(false);
-        root->addChild(part.get());
-    }
-
     std::set<std::string> reached(osg::Node& scene, const CullView& view) {
         visited.clear();
-        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-        test::cull(scene, view, *visitor);
+        test::cull(scene, view);
         return visited;
     }
 
@@ -95,8 +96,7 @@ bool isVisible(const osg::Vec3d& point, const std::vector<osg::Plane>& planes) {
 TEST(QuadraticBinCullCallback, NeverCullsAVisibleSampleAndCullsMostOfTheRest) {
     test::Random random(400);
     Pipes pipes(random);
-    std::size_t visible = 0;
-    std::size_t kept = 0;
+    std::size_t visible = 0, kept = 0;
     for (int trial = 0; trial < 200; ++trial) {
         const CullView view = randomPartView(random);
         const std::vector<osg::Plane> planes = view.sidePlanes();
@@ -131,13 +131,8 @@ TEST(QuadraticBinCullCallback, FollowsTransforms) {
 
 TEST(QuadraticBinCullCallback, WithoutABinNothingIsCulled) {
     std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> node = new osg::Group;
-    const osg::ref_ptr<QuadraticBinCullCallback> callback = new QuadraticBinCullCallback;
-    callback->setNestedCallback(new test::VisitRecorder("node", visited));
-    node->setCullCallback(callback.get());
-    node->setCullingActive(false);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*node, CullView::lookAt({0, 0, 10}, {0, 0, 20}, {0, 1, 0}, 10.0), *visitor);
+    const auto node = makePart(new QuadraticBinCullCallback, "node", visited);
+    test::cull(*node, CullView::lookAt({0, 0, 10}, {0, 0, 20}, {0, 1, 0}, 10.0));
     EXPECT_EQ(visited.size(), 1u);
 }
 
@@ -147,12 +142,8 @@ TEST(QuadraticBinCullCallback, KeepsSmallFeatureCulling) {
     CullView view = CullView::lookAt({1000, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     for (const bool hasSphere : {true, false}) {
         std::set<std::string> visited;
-        const osg::ref_ptr<osg::Group> node = new osg::Group;
         const osg::BoundingSphere sphere = hasSphere ? osg::BoundingSphere({0, 0, 0}, 0.002f) : osg::BoundingSphere();
-        const osg::ref_ptr<QuadraticBinCullCallback> callback = new QuadraticBinCullCallback(bin, sphere);
-        callback->setNestedCallback(new test::VisitRecorder("node", visited));
-        node->setCullCallback(callback.get());
-        node->setCullingActive(false);
+        const auto node = makePart(new QuadraticBinCullCallback(bin, sphere), "node", visited);
         view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING | osg::CullSettings::SMALL_FEATURE_CULLING;
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         test::cull(*node, view, *visitor);

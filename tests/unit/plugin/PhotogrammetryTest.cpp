@@ -4,6 +4,7 @@
 // Photogrammetry sets as an application opens them: where they stand, and what is said of broken ones. How they are
 // culled: PhotogrammetryCullTest.cpp. Oracles of places: the meridian arc by quadrature, OSG's ellipsoid.
 
+#include "DatabaseFixture.h"
 #include "PhotogrammetryFixture.h"
 
 #include <osgAnalyticBin/Declarations.h>
@@ -26,20 +27,21 @@ protected:
         EXPECT_TRUE(scene) << errorOfRead();
         return scene ? point * setIn(*scene)->getMatrix() : osg::Vec3d();
     }
+    void expectError(const std::string& text) const {
+        EXPECT_NE(errorOfRead().find(text), std::string::npos) << errorOfRead();
+    }
+    void expectError(const std::string& srs, const std::string& origin, const std::string& text) const {
+        writeMetadata(srs, origin);
+        expectError(text);
+    }
     static osg::Vec3d ecef(double latitudeDeg, double longitudeDeg, double height) {
-        osg::Vec3d point;
-        osg::EllipsoidModel().convertLatLongHeightToXYZ(osg::DegreesToRadians(latitudeDeg),
-                                                        osg::DegreesToRadians(longitudeDeg), height, point.x(),
-                                                        point.y(), point.z());
-        return point;
+        return test::ecefDeg(latitudeDeg, longitudeDeg, height);
     }
 };
 
 // Metres along the meridian from the equator, by Simpson's rule.
 double meridianArc(double latitude) {
-    const double a = osg::WGS_84_RADIUS_EQUATOR;
-    const double b = osg::WGS_84_RADIUS_POLAR;
-    const double e2 = 1.0 - b * b / (a * a);
+    const double a = osg::WGS_84_RADIUS_EQUATOR, b = osg::WGS_84_RADIUS_POLAR, e2 = 1.0 - b * b / (a * a);
     const auto radius = [&](double p) { return a * (1.0 - e2) / std::pow(1.0 - e2 * std::sin(p) * std::sin(p), 1.5); };
     constexpr int kSteps = 2000;
     const double step = latitude / kSteps;
@@ -95,17 +97,13 @@ TEST_F(Photogrammetry, StandsWhereEarthCentredCoordinatesSay) {
 }
 
 TEST_F(Photogrammetry, IsRefusedWhereThePlaceCannotBeKnown) {
-    writeMetadata("EPSG:99999999", "0,0,0");
-    EXPECT_NE(errorOfRead().find("EPSG:99999999\" is not known to PROJ"), std::string::npos) << errorOfRead();
-    writeMetadata("EPSG:4326", "0,0,0");
-    EXPECT_NE(errorOfRead().find("coordinates in degrees"), std::string::npos) << errorOfRead();
-    writeMetadata("EPSG:32632", "1e30,1e30,0");
-    EXPECT_NE(errorOfRead().find("are SRS and SRSOrigin right?"), std::string::npos) << errorOfRead();
+    expectError("EPSG:99999999", "0,0,0", "EPSG:99999999\" is not known to PROJ");
+    expectError("EPSG:4326", "0,0,0", "coordinates in degrees");
+    expectError("EPSG:32632", "1e30,1e30,0", "are SRS and SRSOrigin right?");
 }
 #else
 TEST_F(Photogrammetry, IsRefusedWhereThePlaceCannotBeKnown) {
-    writeMetadata("EPSG:32632", "0,0,0");
-    EXPECT_NE(errorOfRead().find("built with PROJ"), std::string::npos) << errorOfRead();
+    expectError("EPSG:32632", "0,0,0", "built with PROJ");
 }
 #endif
 
@@ -120,28 +118,21 @@ TEST_F(Photogrammetry, WithoutAReferenceSystemStandsInItsOwnCoordinates) {
 }
 
 TEST_F(Photogrammetry, SaysWhatIsWrongWithItsMetadata) {
-    const auto errorOf = [this](const std::string& text) {
+    for (const char* text : {"", "<ModelMeta", "\x89PNG"}) {
         (void)_folder.write("metadata.xml", text);
-        return errorOfRead();
-    };
-    EXPECT_NE(errorOf("").find("no element ModelMetadata"), std::string::npos);
-    EXPECT_NE(errorOf("<ModelMeta").find("no element ModelMetadata"), std::string::npos);
-    EXPECT_NE(errorOf("\x89PNG").find("no element ModelMetadata"), std::string::npos);
-    writeMetadata("ENU:47.5", "0,0,0");
-    EXPECT_NE(errorOfRead().find("ENU:LATITUDE,LONGITUDE"), std::string::npos) << errorOfRead();
-    writeMetadata("ENU:97.5,11", "0,0,0");
-    EXPECT_NE(errorOfRead().find("ENU:LATITUDE,LONGITUDE"), std::string::npos) << errorOfRead();
-    writeMetadata("ENU:47.5,11", "0,0");
-    EXPECT_NE(errorOfRead().find("three numbers"), std::string::npos) << errorOfRead();
-    writeMetadata("ENU:47.5,11", "0,nan,0");
-    EXPECT_NE(errorOfRead().find("three numbers"), std::string::npos) << errorOfRead();
+        expectError("no element ModelMetadata");
+    }
+    expectError("ENU:47.5", "0,0,0", "ENU:LATITUDE,LONGITUDE");
+    expectError("ENU:97.5,11", "0,0,0", "ENU:LATITUDE,LONGITUDE");
+    expectError("ENU:47.5,11", "0,0", "three numbers");
+    expectError("ENU:47.5,11", "0,nan,0", "three numbers");
 }
 
 TEST_F(Photogrammetry, SaysWhatIsWrongWithItsFolder) {
     fs::rename(_folder / "Data", _folder / "Elsewhere");
-    EXPECT_NE(errorOfRead().find("no folder Data"), std::string::npos) << errorOfRead();
+    expectError("no folder Data");
     fs::create_directory(_folder / "Data");
-    EXPECT_NE(errorOfRead().find("holds no tile"), std::string::npos) << errorOfRead();
+    expectError("holds no tile");
     const CapturedNotes notes;
     (void)osgDB::Registry::instance()->readNode("http://host.invalid/set/metadata.xml.analyticbin", nullptr);
     EXPECT_EQ(notes.count("not from a server"), 1U);

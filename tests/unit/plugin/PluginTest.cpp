@@ -69,9 +69,8 @@ TEST_F(Plugin, TheObjectCacheKeepsTheDatabaseWithAndWithoutBinsApart) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
     const auto read = [&](const std::string& suffix) { return osgDB::readRefNodeFile(_database + suffix, options); };
-    const osg::ref_ptr<osg::Node> plain = read("");
-    const osg::ref_ptr<osg::Node> bins = read(".analyticbin");
-    const osg::ref_ptr<osg::Node> exact = read(".(method=exact).analyticbin");
+    const osg::ref_ptr<osg::Node> plain = read(""), bins = read(".analyticbin"),
+                                  exact = read(".(method=exact).analyticbin");
     ASSERT_TRUE(plain && bins && exact);
     EXPECT_EQ(counted(*plain).count, 0);
     EXPECT_EQ(counted(*bins).options.method, Method::Quadratic);
@@ -90,33 +89,27 @@ TEST_F(Plugin, SaysOnceHowManyTilesHaveBins) {
     EXPECT_EQ(notes.count("has bins"), 1u);
 }
 
+// The same through the option string; the file name wins.
 TEST_F(Plugin, TakesParametersInThePseudoLoadersManner) {
-    const osg::ref_ptr<osg::Node> node = read(".(method=exact,expiry=1.25).analyticbin");
-    ASSERT_TRUE(node);
-    const CallbackCounter counter = counted(*node);
-    EXPECT_EQ(counter.options.method, Method::Exact);
-    EXPECT_EQ(counter.options.expiry, 1.25);
-}
-
-TEST_F(Plugin, TakesTheSameThroughTheOptionStringAndTheFileNameWins) {
+    const CullOptions options = counted(*read(".(method=exact,expiry=1.25).analyticbin")).options;
+    EXPECT_EQ(options.method, Method::Exact);
+    EXPECT_EQ(options.expiry, 1.25);
     EXPECT_EQ(counted(*read(".analyticbin", "other=1 method=exact")).options.method, Method::Exact);
     EXPECT_EQ(counted(*read(".(method=exact).analyticbin", "method=none")).options.method, Method::Exact);
 }
 
 TEST_F(Plugin, SphereInstallsNothingAndNoneSwitchesCullingOff) {
-    const CallbackCounter sphere = counted(*read(".(method=sphere).analyticbin"));
-    EXPECT_EQ(sphere.count, 0);
-    EXPECT_EQ(sphere.withoutSpheres, 0);
-    const CallbackCounter none = counted(*read(".(method=none).analyticbin"));
-    EXPECT_EQ(none.count, 0);
-    EXPECT_EQ(none.withoutSpheres, 0);
+    for (const char* method : {"sphere", "none"}) {
+        const CallbackCounter counter = counted(*read(std::string(".(method=") + method + ").analyticbin"));
+        EXPECT_EQ(counter.count, 0);
+        EXPECT_EQ(counter.withoutSpheres, 0);
+    }
 }
 
 TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
     for (const char* suffix : {".(method=cube).analyticbin", ".(method=paper).analyticbin", ".(speed=9).analyticbin",
-                               ".(method).analyticbin"}) {
+                               ".(method).analyticbin"})
         EXPECT_FALSE(read(suffix)) << suffix;
-    }
     EXPECT_FALSE(read(".analyticbin", "method=cube"));
     EXPECT_FALSE(osgDB::readRefNodeFile(_folder / "absent.osgb.analyticbin"));
     EXPECT_FALSE(osgDB::readRefNodeFile(".analyticbin"));
@@ -144,10 +137,15 @@ TEST_F(Plugin, LeavesToOtherPluginsWhatIsForThemAlone) {
     EXPECT_EQ(notes.count(""), 0u);
 }
 
-TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
-    const osg::ref_ptr<BinIndex> index = new BinIndex;
+osg::ref_ptr<BinIndex> makeIndex() {
+    osg::ref_ptr<BinIndex> index = new BinIndex;
     index->setSource({"globe.osgb", 1, 2});
     index->setTiles("", {{AnalyticBin(core::GeodeticBin::fromDegrees({1, 2}, {3, 4}, {5, 6})), 5.0, 77}});
+    return index;
+}
+
+TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
+    const osg::ref_ptr<BinIndex> index = makeIndex();
     std::string error;
     ASSERT_TRUE(index->write(_folder / "globe.osgb.bins", error)) << error;
     const osg::ref_ptr<BinIndex> read =
@@ -167,9 +165,7 @@ TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
 }
 
 TEST_F(Plugin, ArchivesHoldIndexesBesideTheirDatabases) {
-    const osg::ref_ptr<BinIndex> index = new BinIndex;
-    index->setSource({"globe.osgb", 1, 2});
-    index->setTiles("", {{AnalyticBin(core::GeodeticBin::fromDegrees({1, 2}, {3, 4}, {5, 6})), 5.0, 77}});
+    const osg::ref_ptr<BinIndex> index = makeIndex();
     const std::string name = _folder / "globe.osga";
     {
         const osg::ref_ptr<osgDB::Archive> archive = osgDB::openArchive(name, osgDB::ReaderWriter::CREATE);

@@ -44,12 +44,13 @@ TEST_F(Statistics, FillOsgsOwn) {
         EXPECT_TRUE(stats.getAttribute(frame, name, number)) << name;
         return number;
     };
-    EXPECT_EQ(attribute("Tiles tested"), double(expected.tested));
-    EXPECT_EQ(attribute("Tiles kept"), double(expected.kept));
-    EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
-    EXPECT_EQ(attribute("Tiles behind the horizon"), double(expected.hidden));
-    EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.beyondEdge));
-    EXPECT_EQ(attribute("Tiles behind terrain"), double(expected.occluded));
+    const std::pair<const char*, std::size_t> numbers[] = {{"Tiles tested", expected.tested},
+                                                           {"Tiles kept", expected.kept},
+                                                           {"Tiles drawn", expected.drawn},
+                                                           {"Tiles behind the horizon", expected.hidden},
+                                                           {"Tiles beyond an edge", expected.beyondEdge},
+                                                           {"Tiles behind terrain", expected.occluded}};
+    for (const auto& [name, number] : numbers) EXPECT_EQ(attribute(name), double(number)) << name;
     EXPECT_GT(expected.drawn, 0u);
     // whole numbers, and no means
     press('s');

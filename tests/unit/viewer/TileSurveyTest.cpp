@@ -58,11 +58,9 @@ TEST(TileSurvey, TellsVerdictsThatAreKnown) {
     // from low above a corner of four tiles, with a narrow view to the ground
     scene.lookFrom(0.0, 0.0, 100e3, 0.0, 20.0);
     const TileSurvey low(scene.camera(), scene.frameStamp());
-    for (const double latitude : {-20.0, 20.0}) {
-        for (const double longitude : {-20.0, 20.0}) {
-            ASSERT_TRUE(tileAt(low, latitude, longitude));
-            EXPECT_EQ(tileAt(low, latitude, longitude)->verdict, TileVerdict::Straddling);
-        }
+    for (const auto& [latitude, longitude] : {std::pair(-20.0, -20.0), {-20.0, 20.0}, {20.0, -20.0}, {20.0, 20.0}}) {
+        ASSERT_TRUE(tileAt(low, latitude, longitude));
+        EXPECT_EQ(tileAt(low, latitude, longitude)->verdict, TileVerdict::Straddling);
     }
     EXPECT_EQ(tileAt(low, 20, 70)->verdict, TileVerdict::Outside);
     EXPECT_EQ(low.counts().kept, 4u);

@@ -43,8 +43,7 @@ void ViewerScene::lookFrom(double latitudeDeg, double longitudeDeg, double altit
     wgs84.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(latitudeDeg),
                                                         osg::DegreesToRadians(longitudeDeg), altitude, toWorld);
     const double pitch = osg::DegreesToRadians(pitchDeg);
-    const osg::Vec3d sight(0.0, std::sin(pitch), -std::cos(pitch));
-    const osg::Vec3d up(0.0, std::cos(pitch), std::sin(pitch));
+    const osg::Vec3d sight(0.0, std::sin(pitch), -std::cos(pitch)), up(0.0, std::cos(pitch), std::sin(pitch));
     _camera->setViewMatrix(osg::Matrixd::inverse(toWorld) * osg::Matrixd::lookAt(osg::Vec3d(), sight, up));
     _camera->setProjectionMatrixAsPerspective(fovDeg, 1.0, 1000.0, 1e8);
 }
