@@ -221,9 +221,8 @@ osg::ref_ptr<osg::Node> Builder::rootTile(const TileKey& tile, const std::vector
 
 osg::ref_ptr<osg::Node> Builder::wrappedTile(const TileKey& key) const {
     osg::ref_ptr<osg::Node> node = tile(key);
-    for (const Part& part : _description.parts) {
+    for (const Part& part : _description.parts)
         if (part.frame == 0 && part.tile == key) node = wrap(part, *node);
-    }
     return node;
 }
 
@@ -280,9 +279,8 @@ osg::ref_ptr<osg::Node> Builder::content(const TileKey& parent) const {
 osg::ref_ptr<osg::Node> Builder::file(const std::string& name) const {
     int number = 0;
     if (std::sscanf(name.c_str(), "houses_%d.osgb", &number) == 1) {
-        for (const Part& part : _description.parts) {
+        for (const Part& part : _description.parts)
             if (part.id == number) return houses(part);
-        }
         return nullptr;
     }
     TileKey key;
@@ -406,9 +404,8 @@ osg::ref_ptr<osg::Node> Builder::wrap(const Part& part, osg::Node& node) const {
 }
 
 void Builder::decorate(osg::Node& subgraph) const {
-    for (const Part& part : _description.parts) {
+    for (const Part& part : _description.parts)
         if (part.frame == 0) applyPart(part, _description, subgraph);
-    }
 }
 
 }  // namespace osgAnalyticBin::test

@@ -99,9 +99,8 @@ Acting* makeLeaverOut(unsigned int number) {
     return new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
         if (!isCull(*nv)) return static_cast<void>(self.traverse(node, nv));
         osg::Group* const group = isPlainGroup(*node) ? node->asGroup() : nullptr;
-        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i)
             if (i != number % group->getNumChildren()) group->getChild(i)->accept(*nv);
-        }
     });
 }
 

@@ -31,9 +31,8 @@ osg::Matrixd DatabaseSpec::toWorld(int frame) const {
 
 double Description::turnOf(const TileKey& tile) const {
     double turn = 0.0;
-    for (const Part& part : parts) {
+    for (const Part& part : parts)
         if (part.kind == PartKind::Turned && part.tile.holds(tile)) turn += part.amount;
-    }
     return turn;
 }
 

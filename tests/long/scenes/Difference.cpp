@@ -90,9 +90,8 @@ public:
     }
 
     [[nodiscard]] std::optional<Difference> first() const {
-        for (std::size_t kind = 0; kind < Kinds; ++kind) {
+        for (std::size_t kind = 0; kind < Kinds; ++kind)
             if (!_texts[kind].empty()) return Difference{kKindNames[kind], _texts[kind]};
-        }
         return std::nullopt;
     }
 
@@ -160,9 +159,8 @@ private:
 std::string textOf(const osgUtil::LineSegmentIntersector::Intersection& hit) {
     std::ostringstream text;
     text.precision(12);
-    for (const osg::Node* node : hit.nodePath) {
+    for (const osg::Node* node : hit.nodePath)
         if (!node->getName().empty() && node->getName().front() == '#') text << node->getName();
-    }
     const osg::Vec3d at = hit.getWorldIntersectPoint();
     text << " at " << at.x() << " " << at.y() << " " << at.z();
     return text.str();

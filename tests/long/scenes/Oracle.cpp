@@ -20,12 +20,10 @@ public:
         : _description(description), _allowed(allowed), _camera(std::move(camera)) {}
 
     void add(const Delivery& delivery) {
-        for (const auto& [key, delivered] : delivery.drawables) {
+        for (const auto& [key, delivered] : delivery.drawables)
             if (delivered.camera == _camera && delivered.isFilled) _drawn.push_back({&delivered, nullptr});
-        }
-        for (const MetDatabase& met : delivery.databases) {
+        for (const MetDatabase& met : delivery.databases)
             if (met.camera == _camera) _met.push_back(&met);
-        }
     }
 
     [[nodiscard]] bool isHidden(const Sight& sight) { return isBlocked(sight.start, sight.end) || isAllowed(sight); }
@@ -159,19 +157,17 @@ bool meets(const Triangle& t, const osg::Vec3d& from, const osg::Vec3d& along) {
 
 double largestScale(const Description& description, const DatabaseSpec& database, int number) {
     double largest = std::abs(database.verticalScale);
-    for (const Part& part : description.parts) {
+    for (const Part& part : description.parts)
         if (part.kind == PartKind::SetScale && part.tile.database == number)
             largest = std::max(largest, std::abs(part.amount));
-    }
     return std::max(largest, 1.0);
 }
 
 // Metres.
 double mostRaised(const Description& description, int number) {
     double most = 0.0;
-    for (const Part& part : description.parts) {
+    for (const Part& part : description.parts)
         if (part.kind == PartKind::Raise && part.tile.database == number) most = std::max(most, part.amount);
-    }
     return most;
 }
 

@@ -257,9 +257,8 @@ Description picturable(Description description) {
     // doc/limits.md: "sees skirts through blended terrain"
     const bool isBlended =
         std::any_of(parts.begin(), parts.end(), [](const Part& part) { return nameOfState(part).find("blend") == 0; });
-    for (DatabaseSpec& database : description.databases) {
+    for (DatabaseSpec& database : description.databases)
         if (isBlended) database.options.skirts = SkirtUse::All;
-    }
     for (Part& part : parts) {
         if (isBlended) part.options.skirts = SkirtUse::All;
         if (part.kind == PartKind::Camera) part.variant %= kFixedCameras;

@@ -11,17 +11,15 @@ namespace {
 
 std::string pathText(const osg::NodePath& path) {
     std::string text;
-    for (const osg::Node* node : path) {
+    for (const osg::Node* node : path)
         if (!node->getName().empty() && node->getName().front() == '#') text += node->getName();
-    }
     return text;
 }
 
 std::string cameraText(const osg::NodePath& path) {
     std::string text;
-    for (osg::Node* node : path) {
+    for (osg::Node* node : path)
         if (node->asCamera()) text += node->getName();
-    }
     return text;
 }
 

@@ -210,13 +210,11 @@ public:
 
     std::optional<Failure> run() {
         objectWatch().clear();
-        for (const Part& part : _description.parts) {
+        for (const Part& part : _description.parts)
             if (part.frame == 0) beginView(part);
-        }
         installAll(nullptr);
-        for (std::size_t i = 0; i < _description.views.size(); ++i) {
+        for (std::size_t i = 0; i < _description.views.size(); ++i)
             if (auto failure = runFrame(static_cast<int>(i) + 1, _description.views[i])) return failure;
-        }
         return std::nullopt;
     }
 

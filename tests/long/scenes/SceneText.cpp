@@ -151,9 +151,8 @@ std::string write(const StateName& state) {
     return text;
 }
 void read(const std::string& text, const StateName& state) {
-    for (state.number = 0; state.number < stateCount(); ++state.number) {
+    for (state.number = 0; state.number < stateCount(); ++state.number)
         if (write(state) == text) return;
-    }
     refuse(text);
 }
 
@@ -283,9 +282,8 @@ std::string line(const std::string& word, Thing thing, Thing plain) {
     eachField(own, thing);
     eachField(other, plain);
     std::string text = word;
-    for (std::size_t i = 0; i < own.fields.size(); ++i) {
+    for (std::size_t i = 0; i < own.fields.size(); ++i)
         if (own.fields[i] != other.fields[i]) text += ' ' + own.fields[i].first + '=' + own.fields[i].second;
-    }
     return text;
 }
 
@@ -361,10 +359,9 @@ std::vector<std::string> alternatives(const std::string& text) {
     std::istringstream values(text.substr(begin, end - begin));
     std::vector<std::string> all;
     std::string value;
-    while (std::getline(values, value, '|')) {
+    while (std::getline(values, value, '|'))
         for (const std::string& one : alternatives(text.substr(0, begin) + value + text.substr(end)))
             all.push_back(one);
-    }
     return all;
 }
 

@@ -181,9 +181,8 @@ bool isOfApplication(PartKind kind) {
 /// At what the application has done to a tile.
 std::optional<Look> lookAtApplication(Random& random, const Description& description, int frame) {
     std::vector<const Part*> parts;
-    for (const Part& part : description.parts) {
+    for (const Part& part : description.parts)
         if (isOfApplication(part.kind) && part.frame <= frame) parts.push_back(&part);
-    }
     const Part* const part = pickPart(random, parts);
     if (!part || random.chance(0.3)) return std::nullopt;
     if (part->kind == PartKind::Sign || part->kind == PartKind::Unculled)

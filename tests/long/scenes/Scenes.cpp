@@ -122,9 +122,8 @@ std::vector<std::string> sceneFiles(const std::vector<std::string>& paths) {
             files.push_back(path);
             continue;
         }
-        for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(path))
             if (entry.path().extension() == ".scene") files.push_back(entry.path().string());
-        }
     }
     std::sort(files.begin(), files.end());
     return files;

@@ -56,9 +56,8 @@ private:
     }
 
     void dropFrames() {
-        for (std::size_t i = 0; i + 1 < _best.description.views.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < _best.description.views.size(); ++i)
             if (_best.description.views[i].isActive) attempt([&](Description& d) { d.views[i].isActive = false; });
-        }
     }
 
     // Databases or parts, field by field.
@@ -77,9 +76,8 @@ private:
         d.databases.pop_back();
         const int count = static_cast<int>(d.databases.size());
         std::vector<Part> kept;
-        for (const Part& part : d.parts) {
+        for (const Part& part : d.parts)
             if (part.tile.database < count) kept.push_back(part);
-        }
         d.parts = kept;
     }
 

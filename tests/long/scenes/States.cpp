@@ -274,9 +274,8 @@ std::string stateName(int number) {
 }
 
 int stateOf(const std::string& name) {
-    for (int i = 0; i < stateCount(); ++i) {
+    for (int i = 0; i < stateCount(); ++i)
         if (stateName(i) == name) return i;
-    }
     throw std::logic_error("no state " + name);
 }
 

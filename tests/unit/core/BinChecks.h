@@ -56,9 +56,8 @@ void expectPlanesWithoutNumbersToBeUndecided(const Make& make) {
         EXPECT_EQ(bin.classify(plane), core::Side::Straddling) << broken;
         EXPECT_EQ(bin.classify(plane.flipped()), core::Side::Straddling) << broken;
     }
-    for (const double offset : {kInfinity, -kInfinity}) {
+    for (const double offset : {kInfinity, -kInfinity})
         EXPECT_EQ(bin.classify({{1.0, 0.0, 0.0}, offset}), core::Side::Straddling);
-    }
 }
 
 }  // namespace osgAnalyticBin::test

@@ -47,9 +47,8 @@ bool isOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dv
 bool isSegmentOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dvec3& from,
                    const glm::dvec3& to) {
     constexpr int kSteps = 48;
-    for (int step = 0; step <= kSteps; ++step) {
+    for (int step = 0; step <= kSteps; ++step)
         if (!isOver(region, ellipsoid, glm::mix(from, to, static_cast<double>(step) / kSteps))) return false;
-    }
     return true;
 }
 

@@ -48,9 +48,8 @@ double dipOfCells(const Ellipsoid& ellipsoid, const Tile& part, int cells, Rando
         const RealVector nw = post(ellipsoid, south + lat, west, heights.next());
         const RealVector ne = post(ellipsoid, south + lat, west + lon, heights.next());
         for (const auto& triangle : {std::array<RealVector, 3>{sw, se, ne}, std::array<RealVector, 3>{sw, ne, nw},
-                                     std::array<RealVector, 3>{sw, se, nw}, std::array<RealVector, 3>{se, ne, nw}}) {
+                                     std::array<RealVector, 3>{sw, se, nw}, std::array<RealVector, 3>{se, ne, nw}})
             dip = std::max(dip, dipOf(ellipsoid, triangle, heights.lowest()));
-        }
     }
     return dip;
 }

@@ -51,9 +51,8 @@ bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector&
               std::sin(at.latitude)};
     }
     const Real high = static_cast<Real>(ellipsoid.equatorialRadius());
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
         if (meets(triangleAt(mesh, i), point + (-room) * up, point + high * up)) return true;
-    }
     return false;
 }
 
@@ -62,9 +61,8 @@ std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells
     core::EarthColumns some;
     for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter) {
         plates.columns(cells, cells, quarter, depth, 0.0, core::Frame(), some);
-        for (std::size_t i = 0; i < some.size; ++i) {
+        for (std::size_t i = 0; i < some.size; ++i)
             if (!std::isnan(some.error[i])) columns.push_back(columnOf(some, i));
-        }
     }
     return columns;
 }

@@ -88,9 +88,8 @@ EarthColumn randomColumn(Random& random) {
 
 // A column whose corners are wrong by up to the error that it states.
 EarthColumn perturbed(Random& random, EarthColumn column) {
-    for (auto* corners : {&column.top, &column.bottom}) {
+    for (auto* corners : {&column.top, &column.bottom})
         for (glm::dvec3& corner : *corners) corner += 0.999 * column.error * random.direction();
-    }
     return column;
 }
 
@@ -101,9 +100,8 @@ bool isBehind(const EarthColumn& column, const RealVector& point) {
               std::copy(column.top.begin(), column.top.end(), corners.begin()));
     for (std::size_t a = 0; a < 8; ++a) {
         for (std::size_t b = 0; b < a; ++b) {
-            for (std::size_t c = 0; c < b; ++c) {
+            for (std::size_t c = 0; c < b; ++c)
                 if (meets({corners[a], corners[b], corners[c]}, {0, 0, 0}, point)) return true;
-            }
         }
     }
     return false;

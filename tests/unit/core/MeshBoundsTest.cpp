@@ -274,9 +274,8 @@ TEST(GeodeticGridBounds, IsKnownOnPlanetsLikeTheEarth) {
         const Ellipsoid ellipsoid = planet.in(1.0);
         const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
         const bool isEarthLike = std::abs(ellipsoid.eccentricitySquared()) < 0.1;
-        for (const double reach : {0.0, 0.0999 * smaller}) {
+        for (const double reach : {0.0, 0.0999 * smaller})
             EXPECT_EQ(GeodeticGridBounds(ellipsoid, grid, reach).isKnown(), isEarthLike) << planet;
-        }
         EXPECT_FALSE(GeodeticGridBounds(ellipsoid, grid, 0.1001 * smaller).isKnown()) << planet;
     }
 }

@@ -37,9 +37,7 @@ void expectSame(const core::GeodeticBin& place, const core::GeodeticBin& extents
     EXPECT_NEAR(place.latitude().upper, extents.latitude().upper, tolerance(extents.latitude()));
     EXPECT_NEAR(place.longitude().width(), extents.longitude().width(), tolerance(extents.longitude()));
     const double turn = std::remainder(place.longitude().lower - extents.longitude().lower, 2.0 * 3.14159265358979);
-    if (!extents.isFullCircle()) {
-        EXPECT_NEAR(turn, 0.0, tolerance(extents.longitude()));
-    }
+    EXPECT_NEAR(extents.isFullCircle() ? 0.0 : turn, 0.0, tolerance(extents.longitude()));
 }
 
 std::array<std::uint32_t, 3> cornersAt(const core::EcefMesh& mesh, std::size_t first) {

@@ -39,11 +39,10 @@ EcefMesh gridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin&
     for (std::uint32_t row = 0; row < cells; ++row) {
         for (std::uint32_t column = 0; column < cells; ++column) {
             const std::uint32_t a = row * (cells + 1) + column, b = a + 1, c = a + cells + 1, d = c + 1;
-            if (random.chance(0.5)) {
+            if (random.chance(0.5))
                 mesh.triangles.insert(mesh.triangles.end(), {a, b, c, c, b, d});
-            } else {
+            else
                 mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
-            }
         }
     }
     return mesh;
@@ -123,10 +122,9 @@ EcefMesh withSkirts(const core::Ellipsoid& ellipsoid, const EcefMesh& grid, std:
             core::Geodetic place = ellipsoid.toGeodetic(grid.vertex(top));
             place.altitude -= depth;
             addVertex(mesh, ellipsoid.toEcef(place));
-            if (i > 0) {
+            if (i > 0)
                 for (const std::uint32_t corner : {top - step, bottom - 1, bottom, top - step, bottom, top})
                     mesh.triangles.push_back(corner);
-            }
         }
     };
     addWall(0, 1);

@@ -165,9 +165,7 @@ TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
             const MeshBounds found(ellipsoid, scaled);
             expectSame(expected.bin(), found.bin());
             EXPECT_EQ(found.touchesAxis(), expected.touchesAxis());
-            if (expected.isQuick()) {
-                EXPECT_EQ(found.sag(), unit * expected.sag());
-            }
+            EXPECT_TRUE(!expected.isQuick() || found.sag() == unit * expected.sag());
 
             const GeodeticGrid grid{extents.latitude(), extents.longitude(), 9, 9};
             const double reach = random.uniform(0.0, 0.2) * smaller(metres);

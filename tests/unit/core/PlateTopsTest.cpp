@@ -173,10 +173,9 @@ TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
             const auto first = [&](std::uint32_t strip) { return std::max(cells / 4 * strip, beyond) - beyond; };
             const auto last = [&](std::uint32_t strip) { return std::min(cells / 4 * (strip + 1) + beyond, cells); };
             double highest = -HUGE_VAL;
-            for (std::uint32_t row = first(south); row <= last(south); ++row) {
+            for (std::uint32_t row = first(south); row <= last(south); ++row)
                 for (std::uint32_t column = first(west); column <= last(west); ++column)
                     highest = std::max(highest, earth.toGeodetic(mesh.vertex(row * (cells + 1) + column)).altitude);
-            }
             EXPECT_NEAR(plates.most(part, extents), highest, 1e-3 + 2.0 * 2300.0 / 65533.0);
         }
     }
@@ -204,9 +203,8 @@ TEST(GroundPlates, TopsAreNotKnownWhereSkirtsAreTooDeep) {
     const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     const core::GeodeticGrid grid{extents.latitude(), extents.longitude(), 17, 17};
     const std::vector<double> altitudes(17 * 17, 100.0);
-    for (const auto& [depth, isKnown] : {std::pair{22e3, true}, std::pair{29e3, false}, std::pair{-1.0, false}}) {
+    for (const auto& [depth, isKnown] : {std::pair{22e3, true}, std::pair{29e3, false}, std::pair{-1.0, false}})
         EXPECT_EQ(std::isfinite(GroundPlates(wgs84(), grid, altitudes, 0.0, depth).most(0, extents)), isKnown);
-    }
 }
 
 }  // namespace

@@ -123,11 +123,10 @@ TEST(HorizonBuffer, HidesWithoutTheEarthOfSomeWhatOthersHide) {
             const GroundTile& tile = scene.tiles[k];
             addTile(restarted, scene, tile, 8, k);
             addTile(all, scene, tile, 8);
-            if (random.chance(0.3)) {
+            if (random.chance(0.3))
                 without.push_back(k);
-            } else {
+            else
                 addTile(others, scene, tile, 8);
-            }
         }
         const auto bodies = frontToBack(scene, all);
         if (i % 3 > 0) (void)restarted.hides(bodies[bodies.size() / 2].outline);

@@ -84,21 +84,6 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
 }
 
-TEST(HorizonCulling, IsUsedWhereItIsAskedForAndHidesNothingThatIsDrawnInFrontOfAll) {
-    const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
-    CountedGlobe undeclared, globe(horizonOptions());
-    undeclared.reached(*undeclared.root, view);
-    EXPECT_EQ(undeclared.counts.hidden, 0u);
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    scene->setCullingActive(false);
-    scene->addChild(globe.root);
-    globe.reached(*scene, view);
-    EXPECT_GT(globe.counts.hidden, 0u);
-    ignoreDepth(*scene);
-    globe.reached(*scene, view);
-    EXPECT_EQ(globe.counts.hidden, 0u);
-}
-
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     const osg::ref_ptr<osg::Group> tile = new osg::Group;

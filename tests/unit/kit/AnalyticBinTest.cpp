@@ -68,9 +68,8 @@ TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
     for (const char* text :
          {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8 9", "0 0 0 1 1 1 0 -1", "a b c d e f g", "4 2 3 1 5 6 0",
           "0 0 nan 1 1 1 0", "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0", "0 0 0 1 1 1 -1",
-          "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
+          "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"})
         EXPECT_FALSE(AnalyticBin::fromText(text).valid()) << text;
-    }
 }
 
 TEST(AnalyticBin, TextRoundTripKeepsTheSag) {
@@ -137,9 +136,8 @@ TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
                 GeodeticBin::fromDegrees({south, south + width}, {170.0, 170.0 + width}, {-400.0, 8800.0}));
             const osg::BoundingSphere sphere = bin.boundingSphere(wgs84);
             double reach = 0.0;
-            for (const osg::Vec3d& p : samples(bin, 9)) {
+            for (const osg::Vec3d& p : samples(bin, 9))
                 reach = std::max(reach, (p - osg::Vec3d(sphere.center())).length());
-            }
             EXPECT_LE(reach, sphere.radius());
             EXPECT_LE(sphere.radius(), 1.15 * reach + 2.0) << width << " at " << south;
         }
@@ -150,9 +148,8 @@ TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
 TEST(AnalyticBin, SphereOfTheWholeGlobeHoldsTheGlobe) {
     const AnalyticBin globe(GeodeticBin::wholeGlobe({-11000.0, 9000.0}));
     const osg::BoundingSphere sphere = globe.boundingSphere(osg::EllipsoidModel());
-    for (const osg::Vec3d& p : samples(globe, 15)) {
+    for (const osg::Vec3d& p : samples(globe, 15))
         EXPECT_LE((p - osg::Vec3d(sphere.center())).length(), sphere.radius());
-    }
 }
 
 CullOptions parsed(const std::string& text) {
@@ -164,9 +161,8 @@ CullOptions parsed(const std::string& text) {
 
 TEST(CullOptions, EmptyTextIsTheDefault) {
     for (const char* text : {"", "method=quadratic expiry=3,occlusion=auto;horizon=declared,edges=on",
-                             "skirts=cracks,cluster=replace,index=auto"}) {
+                             "skirts=cracks,cluster=replace,index=auto"})
         EXPECT_TRUE(parsed(text) == CullOptions()) << text;
-    }
     EXPECT_EQ(CullOptions().method, Method::Quadratic);
     EXPECT_EQ(CullOptions().expiry, 3.0);
     EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Auto);

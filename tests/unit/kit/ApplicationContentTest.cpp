@@ -252,8 +252,7 @@ TEST_P(NeverCulled, IsACamera) {
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
 
 TEST(Clones, ThatShareCallbacksStayVisible) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     // OSG tells nothing of what is drawn: bins alone do
     for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
     const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
@@ -266,8 +265,7 @@ TEST(Clones, ThatShareCallbacksStayVisible) {
 
 // An application's callback in front of the bin's: the clones of its node share both.
 TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     osg::Node& tile = *globe.tiles[19];
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Callback> application = new VisitRecorder("tile", visited);
@@ -288,8 +286,7 @@ TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
 
 // A mast that lies in the tile, and stands up: its sphere stays the same.
 TEST(AddedContent, ThatTurnsInItsSphereIsDrawn) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     constexpr float kHalf = 30000.0f;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     for (const osg::Vec3& v : {osg::Vec3(-kHalf, 0, 0), osg::Vec3(kHalf, 100, 0), osg::Vec3(kHalf, -100, 0)})

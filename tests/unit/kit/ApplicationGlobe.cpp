@@ -57,9 +57,8 @@ void computeNear(CullView& view, osg::Node& scene) {
 
 osg::ref_ptr<osg::MatrixTransform> makeTower(const osg::Vec3d& place, float size) {
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    for (const osg::Vec3& v : {osg::Vec3(-1, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 1)}) {
+    for (const osg::Vec3& v : {osg::Vec3(-1, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 1)})
         vertices->push_back(v * size);
-    }
     const osg::ref_ptr<osg::Geometry> tower = makeGeometry(vertices, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
     return placed(tower, osg::Matrixd::translate(place));
 }
@@ -105,6 +104,10 @@ void MeshGlobe::expectDrawn(osg::Node& content, const CullView& view, bool isDra
 
 CullView MeshGlobe::fromAbove(double altitude) {
     return CullView::lookAt(ecefDeg(22.5, -22.5, altitude), {0, 0, 0}, {0, 0, 1}, 100.0);
+}
+
+InstalledGlobe::InstalledGlobe(double altitude) : MeshGlobe(altitude) {
+    installBins(*root);
 }
 
 FiledGlobe::FiledGlobe() {

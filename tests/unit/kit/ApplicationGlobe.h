@@ -89,6 +89,11 @@ struct MeshGlobe {
     unsigned int frame = 0;
 };
 
+/// With bins.
+struct InstalledGlobe : MeshGlobe {
+    explicit InstalledGlobe(double altitude = 0.0);
+};
+
 /// A root tile of 40 degrees, and a file below it: the application's plain group with one leaf.
 struct FiledGlobe : MeshGlobe {
     FiledGlobe();

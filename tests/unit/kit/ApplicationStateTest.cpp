@@ -62,8 +62,7 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesAMeshAway) {
 // Where OSG chooses by pixels the kit does not know what it will choose, but it knows whether there is a choice.
 TEST(HoledGlobe, IsSeenThroughWhereNoLevelIsDue) {
     for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
+        InstalledGlobe globe;
         osg::PagedLOD& tile = *globe.tiles[19];
         tile.setRangeMode(mode);
         tile.setRange(0, 0.0f, 1e10f);
@@ -77,8 +76,7 @@ TEST(HoledGlobe, IsSeenThroughWhereNoLevelIsDue) {
 }
 
 TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     globe.tiles[19]->setNodeMask(0);
     for (int i = 0; i < 35; ++i) EXPECT_TRUE(globe.drawsAntipode()) << i;
     globe.tiles[19]->setNodeMask(~0u);
@@ -110,8 +108,7 @@ struct OwnPagedLod : osg::PagedLOD {
 
 // Anywhere below the mesh of a tile, whose sphere is far larger than the hills in it; lower than its bin, too.
 TEST(UndergroundEyes, AreFoundAnywhereBelowATile) {
-    MeshGlobe globe(40000.0);
-    installBins(*globe.root);
+    InstalledGlobe globe(40000.0);
     for (const double latitude : {0.5, 21.3, 44.5}) {
         for (const double longitude : {-44.5, -21.7, -0.5}) {
             for (const double altitude : {-100000.0, 10000.0, 28000.0}) {

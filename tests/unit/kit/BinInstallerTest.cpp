@@ -225,9 +225,8 @@ TEST(HostileNames, AreNotReadUntilThePagerAsks) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     for (const char* name : {"../../outside.osgb", "/etc/passwd", "//etc/passwd", "http://host.invalid/tile.osgb",
                              "ftp://host.invalid/tile.osgb", "tile.osgb.analyticbin", "tile.osgb.90,0,0.rot", "..", ".",
-                             "a\\..\\..\\outside.osgb", "%s%n.osgb"}) {
+                             "a\\..\\..\\outside.osgb", "%s%n.osgb"})
         root->addChild(makePaged(makeMeshTile(extentsDeg(10, 12, 20, 22), 200.0), name, 1e9f));
-    }
     for (const Method method : {Method::Quadratic, Method::None, Method::Exact}) {
         (void)installBins(*root, by(method), folder / "root.osgb");
         update(*root);

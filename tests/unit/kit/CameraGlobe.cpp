@@ -19,9 +19,8 @@ namespace {
 constexpr int kSamplesAcross = 9;
 
 std::string innermostCamera(const osg::NodePath& path) {
-    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
         if ((*node)->asCamera()) return (*node)->getName();
-    }
     return {};
 }
 
@@ -130,12 +129,10 @@ std::set<std::size_t> CameraGlobe::seen(const Look& look, NearPlane nearPlane,
     const bool fromEye = nearPlane == NearPlane::AtTheEye;
     const Sight sight{toClip, osg::Matrixd::inverse(fromEye ? look.modelView : toClip), nearPlane, occluderDepth};
     std::set<std::size_t> tiles;
-    for (std::size_t i = 0; i < _tiles.size(); ++i) {
+    for (std::size_t i = 0; i < _tiles.size(); ++i)
         if (std::any_of(_samples[i].begin(), _samples[i].end(),
-                        [&](const osg::Vec3d& sample) { return isSeen(sample, sight); })) {
+                        [&](const osg::Vec3d& sample) { return isSeen(sample, sight); }))
             tiles.insert(i);
-        }
-    }
     return tiles;
 }
 

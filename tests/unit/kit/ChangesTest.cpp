@@ -52,8 +52,7 @@ std::vector<Change> changesOfNodes(MeshGlobe& globe) {
 }
 
 TEST(Changes, OfNodesCountInTheSameFrame) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     for (const Change& change : changesOfNodes(globe)) {
         EXPECT_FALSE(globe.drawsAntipode()) << change.name;
         change.make();
@@ -65,8 +64,7 @@ TEST(Changes, OfNodesCountInTheSameFrame) {
 
 // Takes a corner of the tile's mesh away, and puts it back.
 TEST(Changes, OfVerticesThatAreAnnouncedCountInTheSameFrameAndWhatIsWholeAgainAfterTheNextUpdate) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
     auto& vertices = dynamic_cast<osg::Vec3Array&>(*geometry.getVertexArray());
     const osg::Vec3 corner = vertices[0];
@@ -100,8 +98,7 @@ TEST(Changes, OfVerticesWithoutAWordCountWhenBinsAreInstalledAgain) {
 // A tile, and its mesh.
 TEST(Changes, ThatTakeNodesAwayCountInTheSameFrameUntilBinsAreInstalledAgain) {
     for (const int depth : {0, 3}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
+        InstalledGlobe globe;
         osg::ref_ptr<osg::Node> taken = globe.tiles[19];
         for (int i = 0; i < depth; ++i) taken = taken->asGroup()->getChild(0);
         osg::Group& parent = *taken->getParent(0);
@@ -117,21 +114,18 @@ TEST(Changes, ThatTakeNodesAwayCountInTheSameFrameUntilBinsAreInstalledAgain) {
 }
 
 TEST(Changes, OfDepthWithinMeshesCountWhenBinsAreInstalledAgain) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     ignoreDepth(*drawableOf(*globe.tiles[15]));
     EXPECT_FALSE(globe.drawsAntipode());
     installBins(*globe.root);
     EXPECT_TRUE(globe.drawsAntipode());
-    MeshGlobe other;
-    installBins(*other.root);
+    InstalledGlobe other;
     ignoreDepth(*other.tiles[15]);
     EXPECT_TRUE(other.drawsAntipode());
 }
 
 TEST(Changes, OfCullingBelowTilesCountWhenBinsAreInstalledAgain) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     drawableOf(*globe.tiles[15])->setCullingActive(false);
     EXPECT_FALSE(globe.drawsAntipode());
     installBins(*globe.root);
@@ -139,8 +133,7 @@ TEST(Changes, OfCullingBelowTilesCountWhenBinsAreInstalledAgain) {
 }
 
 TEST(Changes, OfRadiiCountWhenBinsAreInstalledAgain) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     const auto radius = [&globe] { return installedOn(*globe.tiles[19])->ellipsoid().equatorialRadius(); };
     globe.root->setEllipsoidModel(new osg::EllipsoidModel(6378000.0, osg::WGS_84_RADIUS_POLAR));
     EXPECT_EQ(radius(), osg::WGS_84_RADIUS_EQUATOR);
@@ -247,8 +240,7 @@ TEST(Newcomers, MayComeToTilesThatHaveLeftTheirDatabase) {
 }
 
 TEST(Newcomers, ATileWithoutItsBinsMayHaveAHole) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     update(*globe.root);
     EXPECT_FALSE(globe.drawsAntipode());
     removeBins(*globe.tiles[19]);

@@ -54,12 +54,10 @@ void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* vie
 
 void collectDrawn(const osgUtil::RenderBin& bin, std::set<const osg::Drawable*>& drawn) {
     // a traversal that is not sorted leaves all in graphs of states
-    for (const osgUtil::StateGraph* graph : const_cast<osgUtil::RenderBin&>(bin).getStateGraphList()) {
+    for (const osgUtil::StateGraph* graph : const_cast<osgUtil::RenderBin&>(bin).getStateGraphList())
         for (const auto& leaf : graph->_leaves) drawn.insert(leaf->getDrawable());
-    }
-    for (const auto& [number, child] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList()) {
+    for (const auto& [number, child] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList())
         collectDrawn(*child, drawn);
-    }
 }
 
 }  // namespace
@@ -70,10 +68,9 @@ std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
         for (const osgUtil::StateGraph* graph : from.getStateGraphList()) {
             std::vector<const osg::StateSet*> states;
             for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
-            for (const auto& leaf : graph->_leaves) {
+            for (const auto& leaf : graph->_leaves)
                 found.push_back({leaf->_traversalOrderNumber,
                                  {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states, *leaf->_projection}});
-            }
         }
         for (const auto& [number, child] : from.getRenderBinList()) collect(*child);
     };
@@ -102,9 +99,8 @@ CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& vi
     visitor.setComputeNearFarMode(view.computeNearFar);
     visitor.setStateGraph(stateGraph.get());
     visitor.setRenderStage(stage.get());
-    if (view.cullingMode & osg::CullSettings::SHADOW_OCCLUSION_CULLING) {
+    if (view.cullingMode & osg::CullSettings::SHADOW_OCCLUSION_CULLING)
         collectOccluders(scene, view, viewport.get(), visitor);
-    }
     visitor.pushViewport(viewport.get());
     const osg::ref_ptr<osg::RefMatrix> projection = new osg::RefMatrix(view.projection);
     visitor.pushProjectionMatrix(projection.get());

@@ -25,15 +25,13 @@ void takeVertices(osg::MatrixTransform& from, osg::PagedLOD& tile) {
 }
 
 TEST(Evidence, IsMissingForAMeshThatHasBecomeNarrower) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, -1.0), 0.0), *globe.tiles[19]);
     globe.expectAntipode(true);
 }
 
 TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     const auto hidden = [&] {
         EXPECT_FALSE(globe.drawsAntipode());
         return globe.counts().hidden;
@@ -67,8 +65,7 @@ TEST(AddedLevels, HideWhatIsBehindThemUnlessTheyAreSeenThrough) {
 // A texture of the application's own may draw nothing.
 TEST(Evidence, IsMissingInAStateOfTheApplicationsClass) {
     struct OwnTexture : osg::Texture2D {};
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     EXPECT_FALSE(globe.drawsAntipode());
     globe.root->getOrCreateStateSet()->setTextureAttributeAndModes(0, new OwnTexture);
     EXPECT_TRUE(globe.drawsAntipode());
@@ -77,8 +74,7 @@ TEST(Evidence, IsMissingInAStateOfTheApplicationsClass) {
 TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     // above all posts, and between them, where the mesh sags
     for (const double altitude : {4000.0, -1000.0}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
+        InstalledGlobe globe;
         const CullView low =
             CullView::lookAt(ecefDeg(22.0, -22.5, altitude), ecefDeg(60.0, 60.0, 0.0), {0, 0, 1}, 60.0);
         for (int i = 0; i < 4; ++i) {

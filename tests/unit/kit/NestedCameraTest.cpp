@@ -70,9 +70,8 @@ TEST(DepthBuffers, OfTexturesHaveToBeFineForAHorizon) {
         setUp(*camera);
         return reachedBy(*camera, globe);
     };
-    for (const GLenum format : std::array<GLenum, 3>{GL_DEPTH_COMPONENT, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F}) {
+    for (const GLenum format : std::array<GLenum, 3>{GL_DEPTH_COMPONENT, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F})
         EXPECT_EQ(reachedWith([&](Camera& camera) { camera.attach(Camera::DEPTH_BUFFER, format); }), hidden) << format;
-    }
     EXPECT_EQ(reachedWith([](Camera&) {}), hidden) << "OSG adds one of 24 bits";
     EXPECT_GT(reachedWith([](Camera& camera) { camera.attach(Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT16); }), hidden);
     EXPECT_GT(reachedWith([](Camera& camera) { camera.setImplicitBufferAttachmentMask(0, 0); }), hidden);
@@ -137,8 +136,7 @@ TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
     constexpr double kHalf = 7e6;
     const osg::Matrixd orthographic = osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7);
     for (const auto frame : {Transform::ABSOLUTE_RF, Transform::RELATIVE_RF}) {
-        MeshGlobe globe;
-        installBins(*globe.root);
+        InstalledGlobe globe;
         // 45 degrees and more from the eye
         const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
         EXPECT_FALSE(globe.draws(*tile, view));

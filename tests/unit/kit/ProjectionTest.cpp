@@ -250,9 +250,7 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     const std::vector<Look> looks = globe.takeLooks();
     ASSERT_EQ(looks.size(), 3u);
     LookTotals totals;
-    for (const Look& look : looks) {
-        EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty());
-    }
+    for (const Look& look : looks) EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty());
     EXPECT_LT(looks[0].reached.size(), looks[1].reached.size());
     EXPECT_EQ(looks[0].reached, looks[2].reached);
 

@@ -159,8 +159,7 @@ TEST(Selection, LeavesTheVisitorAsItWas) {
 
 // As osg::PagedLOD does it itself: levels that are not come to grow old, and files with them.
 TEST(Selection, StampsTheLevelsThatItGoesThrough) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     osg::PagedLOD& tile = *globe.tiles[19];
     globe.frame = 40;
     const double time = 7.0;

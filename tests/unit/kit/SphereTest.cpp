@@ -16,11 +16,9 @@ osg::ref_ptr<osg::Node> makeTree(double south, double west, double height, doubl
     if (levels == 0)
         return makePaged(makeMeshTile(extentsDeg(south, south + height, west, west + width), 0.0), "no.osgb");
     const osg::ref_ptr<osg::Group> group = new osg::Group;
-    for (const double y : {south, south + height / 2}) {
-        for (const double x : {west, west + width / 2}) {
+    for (const double y : {south, south + height / 2})
+        for (const double x : {west, west + width / 2})
             group->addChild(makeTree(y, x, height / 2, width / 2, levels - 1));
-        }
-    }
     return group;
 }
 

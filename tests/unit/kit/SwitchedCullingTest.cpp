@@ -133,13 +133,13 @@ TEST_F(ComparedCulling, IsInTheStatisticsOfEachCamera) {
 }
 
 TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
+    const auto bins = drawnAfresh(Method::Quadratic, lookDown(1));
     const CapturedNotes notices;
     for (const char* const text : {"soon", "-1", "nan", ""}) {
         setenv("OSGANALYTICBIN_COMPARE", text, 1);
         const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
         PagedFlight flight(*scene);
         unsetenv("OSGANALYTICBIN_COMPARE");
-        const auto bins = drawnAfresh(Method::Quadratic, lookDown(1));
         EXPECT_TRUE(flight.framesUntil(lookDown(1), [&] { return flight.time() > 1.0 && flight.drawn() == bins; }))
             << text;
     }

@@ -58,9 +58,8 @@ void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<con
         ASSERT_EQ(installBins(*alone, options), families->getNumChildren());
         alone->addCullCallback(new osg::NodeCallback);
         // families do not test the spheres either
-        for (const auto& globe : {families, alone}) {
+        for (const auto& globe : {families, alone})
             for (unsigned int i = 0; i < globe->getNumChildren(); ++i) globe->getChild(i)->setCullingActive(false);
-        }
         Random random(20260101);
         std::uint64_t outside = 0, separated = 0;
         for (int i = 0; i < views; ++i) {
@@ -144,8 +143,7 @@ TEST(TileFamily, EntersTilesWithTheirStateAndByTheirMasks) {
 }
 
 TEST(TileFamily, LetsVisitorsOfAnApplicationMeetTheTilesThatAreKept) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     const osg::ref_ptr<OwnVisitor> visitor = new OwnVisitor;
     (void)cull(*globe.root, MeshGlobe::fromAbove(), *visitor);
     const auto met = [&](const osg::PagedLOD& tile) {
@@ -156,8 +154,7 @@ TEST(TileFamily, LetsVisitorsOfAnApplicationMeetTheTilesThatAreKept) {
 }
 
 TEST(TileFamily, FollowsMeshesThatOsgOptimizes) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     osgUtil::Optimizer optimizer;
     optimizer.optimize(globe.root.get());
     for (int i = 0; i < 2; ++i) {
@@ -196,8 +193,7 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
 
 // Vertices may change in each frame: the family is not made anew for that.
 TEST(TileFamily, StaysWhereMeshesChange) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     const osg::ref_ptr<osg::Callback> last = globe.root->getCullCallback()->getNestedCallback();
     osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
     geometry.getVertexArray()->dirty();
@@ -242,8 +238,7 @@ TEST(TileFamily, IsLookedThroughOnceForManyMeshes) {
 
 // Their numbers are others than those that the family was made with, until the next update.
 TEST(TileFamily, FollowsTilesThatMove) {
-    MeshGlobe globe;
-    installBins(*globe.root);
+    InstalledGlobe globe;
     const BinCounts before = countsOf(*globe.root, MeshGlobe::fromAbove());
     globe.root->insertChild(0, new osg::Group);
     for (int i = 0; i < 2; ++i) {
@@ -309,10 +304,9 @@ TEST(FamilyTile, GoesOnWhereTheApplicationEmptiesAFile) {
     OneTile scene;
     const osg::ref_ptr<osg::PagedLOD> paged = makePaged(scene.mesh, "finer.osgb", 1e7f);
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    for (const double west : {0.0, 5.0}) {
+    for (const double west : {0.0, 5.0})
         for (const double south : {0.0, 5.0})
             file->addChild(makeMeshTile(extentsDeg(south, south + 5.0, west, west + 5.0), 100.0));
-    }
     putBelow(*paged, file);
     scene.globe->addChild(paged);
     EXPECT_GT(installBins(*scene.globe, {}), 0u);
@@ -329,9 +323,8 @@ TEST(FamilyTile, MovesPlanesByWholeMatrices) {
     scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
     EXPECT_GT(installBins(*scene.globe, {}), 0u);
     osg::Matrixd matrix = scene.mesh->getMatrix();
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) matrix(row, column) *= 0.5;  // the same place, written otherwise
-    }
     scene.mesh->setMatrix(matrix);
     Random random(3);
     for (unsigned int frame = 2; frame < 40; ++frame) {

@@ -92,10 +92,9 @@ protected:
         everything.cullingMode = osg::CullSettings::NO_CULLING;
         std::vector<std::string> lost;
         const osg::Matrixd toEye = setIn(*all.scene)->getMatrix() * view.modelView;
-        for (const osg::Drawable* drawable : all.drawn(everything)) {
+        for (const osg::Drawable* drawable : all.drawn(everything))
             if (hasVertexInside(*drawable, toEye, view) && drawn.count(keyOf(*drawable)) == 0)
                 lost.push_back(keyOf(*drawable));
-        }
         return lost;
     }
 

@@ -35,9 +35,8 @@ public:
         }
         if (!node.getCullingActive()) ++withoutSpheres;
         // terrain tiles of osgTerrain must not be traversed before they have their Terrain
-        if (std::string(node.libraryName()) != "osgTerrain" || std::string(node.className()) != "TerrainTile") {
+        if (std::string(node.libraryName()) != "osgTerrain" || std::string(node.className()) != "TerrainTile")
             traverse(node);
-        }
     }
     int count = 0;
     int withoutSpheres = 0;
@@ -131,9 +130,8 @@ TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
 TEST_F(Plugin, LeavesToOtherPluginsWhatIsForThemAlone) {
     const test::CapturedNotes notes;
     for (const char* text : {"", "speed=9", "OSG_CURL_TIMEOUT=9 precision 17", "noTriStripPolygons flip;colour=red",
-                             "method=exact compressed dds_flip", "precision 17,horizon=off"}) {
+                             "method=exact compressed dds_flip", "precision 17,horizon=off"})
         EXPECT_TRUE(read(".analyticbin", text)) << text;
-    }
     EXPECT_EQ(notes.count(""), 0u);
 }
 

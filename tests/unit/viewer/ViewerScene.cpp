@@ -62,11 +62,10 @@ std::map<const osg::Drawable*, osg::Matrixd> ViewerScene::cull() {
     visitor->pushViewport(_camera->getViewport());
     visitor->pushProjectionMatrix(new osg::RefMatrix(_camera->getProjectionMatrix()));
     visitor->pushModelViewMatrix(new osg::RefMatrix(_camera->getViewMatrix()), osg::Transform::ABSOLUTE_RF);
-    if (osg::Callback* callback = _camera->getCullCallback()) {
+    if (osg::Callback* callback = _camera->getCullCallback())
         callback->run(_camera, visitor);
-    } else {
+    else
         visitor->traverse(*_camera);
-    }
     visitor->popModelViewMatrix();
     visitor->popProjectionMatrix();
     visitor->popViewport();
