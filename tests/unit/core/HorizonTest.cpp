@@ -93,9 +93,10 @@ double percentFound(Random& random, int level, const IsVisible& isVisible, const
                 visible = isVisible(geodeticToEcef(wgs84(), position));
             }
         }
-        if (visible) continue;
-        ++hidden;
-        if (isHidden(HorizonBin(wgs84(), bin), eye)) ++found;
+        const bool isFound = isHidden(HorizonBin(wgs84(), bin), eye);
+        EXPECT_FALSE(visible && isFound) << trial;
+        hidden += visible ? 0 : 1;
+        found += isFound ? 1 : 0;
     }
     return 100.0 * found / hidden;
 }
