@@ -61,6 +61,53 @@ TEST(Horizon, SharesOfBallsAreUpperBounds) {
     EXPECT_GT(5 * tight, hidden);
 }
 
+// On a sphere, where balls stay balls: the point at which a ball touches a line of sight that touches the occluder.
+TEST(Horizon, SharesOfBallsHoldForLinesOfSightThatTouchTheOccluder) {
+    constexpr double kRadius = 6.4e6;
+    const Ellipsoid sphere(kRadius, kRadius);
+    Random random(312);
+    int hidden = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const glm::dvec3 up = random.direction(), aside = glm::normalize(glm::cross(up, random.direction()));
+        const double distance = kRadius * (1.0 + random.logUniform(1e-4, 10.0));
+        const double dip = std::acos(kRadius / distance), toHorizon = kRadius * std::tan(dip);
+        const glm::dvec3 eye = distance * up, outward = std::cos(dip) * up + std::sin(dip) * aside;
+        const glm::dvec3 along = std::sin(dip) * -up + std::cos(dip) * aside;
+        const double radius = toHorizon * random.logUniform(1e-3, 0.5);
+        const double toBall = toHorizon + random.uniform(1.0, 10.0) * radius;
+        const glm::dvec3 touched = eye + toBall * along, centre = touched - (radius + 1e-3) * outward;
+        const auto prepared = HorizonEye::fromEye(sphere, 0.0, eye);
+        ASSERT_TRUE(prepared);
+        const double share = prepared->shareBefore(sphere, centre, radius);
+        if (!(share < 1.0)) continue;
+        ++hidden;
+        ASSERT_GE(share * (1.0 + 1e-9), toHorizon / toBall) << "trial " << trial;
+    }
+    EXPECT_GT(hidden, 500);
+}
+
+// The end of a bin that is next to the horizon is at its highest or at its lowest altitude.
+TEST(Horizon, SeesBinsOfWhichACornerIsJustInSight) {
+    constexpr double kBeyond = 1e-6;  // radians, less than the corners at both altitudes are apart
+    constexpr double kHigh = 9000.0;
+    const double a = wgs84().equatorialRadius(), b = wgs84().polarRadius();
+    for (const double latitudeDeg : {-40.0, -20.0, 20.0, 40.0}) {
+        const double side = latitudeDeg < 0.0 ? -1.0 : 1.0;  // of the equator: the eye is nearer to the pole
+        const GeodeticBin bin = square(latitudeDeg - (side > 0.0 ? 1.0 : 0.0), -0.5, 1.0, {0.0, kHigh});
+        const glm::dvec3 corner = onWgs84(latitudeDeg, 0.0, kHigh) / glm::dvec3(a, a, b);
+        for (const double distance : {1.001, 1.05, 1.2}) {
+            const double toHorizon = std::acos(1.0 / distance) + std::acos(1.0 / glm::length(corner));
+            const auto hidesFrom = [&](double angle) {
+                const double latitude = std::atan2(corner.z, corner.x) + side * angle;
+                const glm::dvec3 direction(std::cos(latitude) * a, 0.0, std::sin(latitude) * b);
+                return hides(distance * direction, bin, 0.0);
+            };
+            EXPECT_FALSE(hidesFrom(toHorizon - kBeyond)) << latitudeDeg << " from " << distance;
+            EXPECT_TRUE(hidesFrom(toHorizon + kBeyond)) << latitudeDeg << " from " << distance;
+        }
+    }
+}
+
 TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
     Random random(311);
     int seen = 0;
