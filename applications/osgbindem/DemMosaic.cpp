@@ -70,14 +70,15 @@ public:
 
     /// Holds those of all positions of the raster within the rectangle.
     [[nodiscard]] Interval range(const RectDeg& rect, const RasterGrid& grid) const {
+        if (isNone()) return {0.0, 0.0};
         // Between these places the geoid differs by no more than its steepest slope allows.
         constexpr int kPlaces = 16;         // along a side
         constexpr double kSteepest = 25.0;  // metres a degree
         const double height = (rect.north - rect.south) / kPlaces;
         const double width = (rect.east - rect.west) / kPlaces;
         const double margin = kSteepest * std::max(height, width);
-        Interval range = isNone() ? Interval{0.0, 0.0} : Interval::none();
-        for (int i = 0; !isNone() && i < (kPlaces + 1) * (kPlaces + 1); ++i) {
+        Interval range = Interval::none();
+        for (int i = 0; i < (kPlaces + 1) * (kPlaces + 1); ++i) {
             const PositionDeg position{rect.south + height * (i / (kPlaces + 1)),
                                        rect.west + width * (i % (kPlaces + 1))};
             if (!grid.locate(position)) continue;

@@ -63,7 +63,7 @@ FAULTS = [
     Fault("horizon: near planes of orthographic cameras are as far away everywhere", "src/kit/cull/Viewpoint.cpp",
           "if (at * direction > farthest * direction) farthest = at;", "(void)at;", NODE, "Projections.*"),
     Fault("ground: nothing hangs over the triangle below the eye", "src/kit/cull/GroundBelow.cpp",
-          "if (overhang.isOpen()) _mesh", "_mesh", NODE, "Evidence.*"),
+          "return _isOpen = overhang.isOpen();", "return _isOpen = true;", NODE, "Evidence.*"),
     Fault("ground: what was found of a tile outlasts its bin", "src/kit/cull/GroundBelow.cpp",
           "_tile.get() == &ground.tile && ", "", NODE, "Evidence.*"),
     Fault("content below tiles is known by its address", "src/kit/install/ContentWatch.cpp",
@@ -539,7 +539,7 @@ FAULTS = [
     Fault("near plane: as far from the eye at all corners", "src/occlusion/TerrainOcclusion.cpp",
           "ahead / glm::length(corner)", "0.5 * ahead / glm::length(corner)", NODE, "TerrainOcclusion.*"),
     Fault("near plane: never oblique", "src/kit/cull/ComputedNear.cpp",
-          "projection(0, 2) != 0.0 ||", "projection(0, 2) > 1e9 ||", NODE, "ComputedNear.*"),
+          "!hasTiltedPlanes(*cullStack.getProjectionMatrix()) &&", "", NODE, "ComputedNear.*"),
     Fault("occlusion: meshes stay as they were", "src/kit/install/ContentWatch.cpp",
           "Tile::MeshUnread | Tile::MeshChanged | ", "Tile::MeshUnread | ", SCENES, NAMED),
 

@@ -10,6 +10,7 @@
 #include "CullCallbacks.h"
 #include "DrawnState.h"
 #include "FamilyTile.h"
+#include "Viewpoint.h"
 
 #include <osgAnalyticBin/Declarations.h>
 
@@ -167,10 +168,8 @@ const osg::Node* ComputedNear::addBeside(DepthSearch& search, const osg::NodePat
 bool ComputedNear::isPossible(osg::NodeVisitor& visitor, const osg::CullStack& cullStack) {
     const bool isCullVisitor =
         isExactly<osgUtil::CullVisitor>(visitor) || (visitor.asCullVisitor() && drawsAsCullVisitor(visitor));
-    // OSG moves an oblique plane, and leaves it oblique
-    const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
-    const bool isOblique = projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
-    return isCullVisitor && !isOblique && !cullStack.getClampProjectionMatrixCallback() &&
+    return isCullVisitor && !hasTiltedPlanes(*cullStack.getProjectionMatrix()) &&
+           !cullStack.getClampProjectionMatrixCallback() &&
            cullStack.getComputeNearFarMode() == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
 }
 

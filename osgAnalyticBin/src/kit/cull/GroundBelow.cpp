@@ -156,6 +156,14 @@ bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) c
     return passage.isWithin() && passage.height() < 0.0;
 }
 
+// Not before the triangle is to serve again: an eye that moves fast is above another one in each view.
+bool GroundBelow::isTriangleOpen(const Ground& ground, const glm::dvec3& up) {
+    if (_isOpen) return true;
+    OverhangSearch overhang(ground.localToEcef, _triangle, up);
+    ground.mesh.accept(overhang);
+    return _isOpen = overhang.isOpen();
+}
+
 bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
@@ -163,7 +171,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     constexpr int kMostUses = 60;
     const bool isSame = ground.isAsRead && _tile.get() == &ground.tile && _mesh.get() == &ground.mesh &&
                         _localToEcef == ground.localToEcef;
-    if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up)) return true;
+    if (isSame && ++_uses < kMostUses && isTriangleBelow(point, up) && isTriangleOpen(ground, up)) return true;
     _mesh = nullptr;
     const double bottom = std::min(ground.low, eye.altitude) - 1.0 - eye.altitude;
     if (!std::isfinite(bottom)) return false;
@@ -171,9 +179,8 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     ground.mesh.accept(search);
     if (!search.isBelow()) return false;
     _triangle = search.triangle();
-    OverhangSearch overhang(ground.localToEcef, _triangle, up);
-    ground.mesh.accept(overhang);
-    if (overhang.isOpen()) _mesh = &ground.mesh;
+    _isOpen = false;
+    _mesh = &ground.mesh;
     _tile = &ground.tile;
     _localToEcef = ground.localToEcef;
     _uses = 0;

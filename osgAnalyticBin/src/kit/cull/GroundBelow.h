@@ -29,17 +29,20 @@ class GroundBelow {
 public:
     /// Whether the mesh is below the eye along the ellipsoid's normal. False in doubt: where the normal meets no
     /// triangle, where something in the mesh cannot be read, and for terrain tiles that have no mesh yet.
-    /// Cost: two searches through the mesh's triangles, or some ten products of vectors while the eye stays above the
-    /// same triangle of a mesh that has not changed, if nothing of the mesh is above that triangle.
+    /// Cost: a search through the mesh's triangles; while the eye stays above the same triangle of a mesh that has not
+    /// changed, a second one, and then some ten products of vectors if nothing of the mesh is above that triangle.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);
 
 private:
     [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
+    // Whether nothing of the mesh hangs over the triangle.
+    [[nodiscard]] bool isTriangleOpen(const Ground& ground, const glm::dvec3& up);
 
     osg::observer_ptr<const osg::Object> _tile;
     osg::observer_ptr<const osg::Node> _mesh;
     osg::Matrixd _localToEcef;
     int _uses = 0;
+    bool _isOpen = false;                   // the triangle is; false: not known yet
     std::array<glm::dvec3, 3> _triangle{};  // ECEF
 };
 

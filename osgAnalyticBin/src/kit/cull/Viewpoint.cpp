@@ -149,6 +149,10 @@ bool isFinalProjection(const osg::CullStack& cullStack) {
     return cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
 }
 
+bool hasTiltedPlanes(const osg::Matrixd& projection) noexcept {
+    return projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
+}
+
 std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
     if (!hasFineDepthBuffer(visitor) || (!inShadowPasses && isShadowPass(visitor))) return std::nullopt;
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
@@ -171,9 +175,7 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - osg::Vec3d(0.0, 0.0, -1.0) * unproject;
     // the projection does not tell reversed depth from a reversed viewing direction
     if (!(direction.z() < 0.0)) return std::nullopt;
-    // OSG moves a tilted near plane, and leaves it tilted
-    const bool isTilted = projection(0, 2) != 0.0 || projection(1, 2) != 0.0;
-    if (isTilted && !isFinalProjection(cullStack)) return std::nullopt;
+    if (hasTiltedPlanes(projection) && !isFinalProjection(cullStack)) return std::nullopt;
     osg::Vec3d start = farthestOfNearPlane(unproject, direction);
     // With near and far computed, what is wholly behind the eye is not drawn and hides nothing.
     if (!isFinalProjection(cullStack) && start.z() > 0.0) start += direction * (start.z() / -direction.z());

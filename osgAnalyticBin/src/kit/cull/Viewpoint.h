@@ -18,6 +18,10 @@ namespace osgAnalyticBin {
 /// Whether the projection stays as it is when all is culled: OSG computes no near and far planes.
 [[nodiscard]] bool isFinalProjection(const osg::CullStack& cullStack);
 
+/// Whether the near and far planes of a projection are tilted against the view direction. OSG moves such planes when it
+/// computes them, and leaves them tilted.
+[[nodiscard]] bool hasTiltedPlanes(const osg::Matrixd& projection) noexcept;
+
 /// The line of sight (x, y, 1) z through a corner of the picture of a perspective projection, in eye space. Corners: 0
 /// to 3. Not finite for projections without a picture.
 [[nodiscard]] osg::Vec3d sightThroughCorner(const osg::Matrixd& projection, int corner);
