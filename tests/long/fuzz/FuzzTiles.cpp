@@ -181,7 +181,7 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
     if (innermost == path.size()) return -1.0;
     const FoundTile& tile = scene.tiles.at(path[innermost]);
     osg::Node* const mesh = ownMesh(tile, path);
-    // primitives may have too few vertices to be drawn
+    // ignore meshes whose primitives all have too few vertices
     if (mesh && surfaceOf(*mesh, tile).isEmpty) return -1.0;
     // what cannot be told keeps the stored bins above it open
     if (!isSurfaceKnown(tile)) return hasStoredBin(*path[culprit]) && mesh ? kRounding : -1.0;

@@ -276,7 +276,7 @@ bool mayHide(const AllowedOccluder& occluder, const Description& description, co
         const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
         return heightOver(from + along * t) < 0.0;
     };
-    // a near plane within the globe has cut away what hides from the eye
+    // a near plane inside the globe cuts away the surface that would hide the point from the eye
     return passesBehind(sight.start) || (isBelow && sight.isPerspective && passesBehind(osg::Vec3d()));
 }
 

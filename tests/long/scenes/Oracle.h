@@ -121,7 +121,7 @@ struct Difference {
 
 /// Compares a scene that never had bins with one that they were taken off again: culling flags, callbacks, user values,
 /// expiry times and structure. Both may have been saved and read.
-/// Returns: the first difference of the first of these kinds in which they differ, nullopt when there is none.
+/// Returns: the first difference, in this order of kinds; nullopt when the scenes are the same.
 [[nodiscard]] std::optional<Difference> findDifference(osg::Node& without, osg::Node& with, bool wereSaved);
 
 }  // namespace osgAnalyticBin::test

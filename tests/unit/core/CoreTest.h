@@ -90,7 +90,7 @@ inline core::Frame randomFrame(Random& random, const glm::dvec3& origin) {
     return frame;
 }
 
-/// Whether a range of distances holds the true one, but for the rounding of the truth.
+/// Whether a range of distances holds the true range, up to the rounding error of the true one.
 inline bool holds(const Interval& range, const RealRange& truth, Real rounding) {
     return range.lower <= truth.lower + rounding && range.upper >= truth.upper - rounding;
 }

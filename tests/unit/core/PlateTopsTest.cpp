@@ -78,8 +78,8 @@ int expectBelowTops(Random& random, const Tile& tile, const EcefMesh& drawn, con
     return known;
 }
 
-// How many tops are known of so many random tiles. `make(tile)` returns what is drawn, its plates, and how deep skirts
-// are.
+// Counts the tops that are known, over many random tiles. `make(tile)` returns what is drawn, its plates, and the depth
+// of its skirts.
 template <class Make>
 int knownTops(Random& random, int trials, const Make& make) {
     int known = 0;

@@ -216,7 +216,7 @@ TEST(InstallBinsCallback, AnExplicitInstallationWins) {
     EXPECT_EQ(db.tile->getCullCallback(), nullptr);
 }
 
-// Files that name what is none of the database's business: the kit reads nothing that the pager does not ask for.
+// File names that point outside of the database: the kit reads no file before the pager asks for it.
 TEST(HostileNames, AreNotReadUntilThePagerAsks) {
     const TemporaryFolder folder;
     const CapturedNotes notes;

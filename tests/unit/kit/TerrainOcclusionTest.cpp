@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Tiles behind a ridge; and osgTerrain tiles that hide others. Which do, and what ends it: tests/scenes/ridge-*.scene,
-// terrain-*.scene. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
+// Tiles behind a ridge, and osgTerrain tiles that hide others. tests/scenes/ridge-*.scene and terrain-*.scene test
+// which tiles hide others, and what stops them from it. Pictures and random scenes: tests/long/scenes. What the core
+// proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
 #include "KitTest.h"

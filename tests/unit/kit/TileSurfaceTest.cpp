@@ -46,7 +46,7 @@ TEST(TileSurface, HoldsEveryTriangleOfATerrainTileTightly) {
             // the lowest post need not stand where chords sag most
             EXPECT_LE(seen.lower - bin.bin().altitude().lower, bin.sag() + margin) << c.name;
             EXPECT_EQ(bin.bin().longitude(), c.extents.longitude()) << c.name;
-            // half a column about its middle, squared, over four: the poleward run at 45 degrees
+            // chords run poleward by at most a sixteenth of the squared width of a column, in radians, at 45 degrees
             const double column = c.extents.longitude().width() / (c.columns - 1), run = 0.07 * column * column + 1e-12;
             EXPECT_LE(bin.bin().latitude().upper - c.extents.latitude().upper, run);
             EXPECT_LE(c.extents.latitude().lower - bin.bin().latitude().lower, run);

@@ -107,7 +107,7 @@ const char* missingToHide(const DatabaseView& view, Database& database, const Cu
         if (!isAboveTerrain(options)) return "options without skirts=all";
         if (database.has(Finding::Gap)) return kNoGaps;
     }
-    // where other tiles cover the globe, stray ones hide nothing that these do not
+    // where other tiles cover the globe, nothing depends on stray ones
     const bool isRelyingOnStrays = (database.has(Finding::Gap) || view.region) && database.has(Finding::StrayTile);
     if (isRelyingOnStrays) return "tiles that stand in one place each";
     if (isAltered) return "no cull callbacks at the root of the database and above";

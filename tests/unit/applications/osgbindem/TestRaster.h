@@ -74,7 +74,7 @@ public:
 
     /// What a file has in place of missing heights; without it, NaN.
     TestRaster& withNodata(double nodata);
-    /// Another reference system than WGS 84; none where it is empty.
+    /// Sets the reference system, WGS 84 by default; an empty text: the file has none.
     TestRaster& in(const std::string& reference);
 
     /// Writes a file. Returns: its path.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The two published rules must be what they claim to be. Oracle: the rules written down a second time. That they are
-// wrong: Soundness.cpp, and osgbinpaper.Experiment.CornersAndThePublishedRuleCullWhatIsSeenAndTheWorstCullIsAProof.
+// The two published rules are implemented as published. Oracle: the rules written down a second time. Soundness.cpp and
+// osgbinpaper.Experiment.CornersAndThePublishedRuleCullWhatIsSeenAndTheWorstCullIsAProof show that the rules are wrong.
 
 #include "ComparisonBins.h"
 
