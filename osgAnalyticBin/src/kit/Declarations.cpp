@@ -26,7 +26,7 @@ void setTraversesAlways(osg::Callback& callback, bool always) {
 
 bool traversesAlways(const osg::Callback& callback) {
     bool does = typeid(callback) == typeid(osg::NodeCallback);
-    if (!does) (void)callback.getUserValue(kTraversesAlways, does);
+    if (!does && callback.getUserDataContainer()) (void)callback.getUserValue(kTraversesAlways, does);
     return does;
 }
 

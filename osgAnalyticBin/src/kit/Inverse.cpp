@@ -32,7 +32,10 @@ bool isAffine(const osg::Matrixd& m) {
 }
 
 bool hasFiniteNumbers(const osg::Matrixd& matrix) {
-    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double number) { return std::isfinite(number); });
+    // infinity times zero is no number
+    double sum = 0.0;
+    for (int i = 0; i < 16; ++i) sum += 0.0 * matrix.ptr()[i];
+    return sum == 0.0;
 }
 
 std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix) {

@@ -650,9 +650,9 @@ FAULTS = [
     Fault("bins are installed on what a read callback keeps", "src/kit/database/BinReadFileCallback.cpp",
           "node->referenceCount() > kOwn || ", "", NODE, "ObjectCache.*"),
     Fault("a database never rests", "src/kit/database/DatabaseCallbacks.cpp",
-          "if (_database->takeCull() && !_database->needsUpdate()) takeOffUpdate(*node, self);", "", NODE, "MissingTiles.*"),
+          "if (_database->takeCull() && !_database->needsUpdate(shape)) takeOffUpdate(*node, self);", "", NODE, "MissingTiles.*"),
     Fault("a database rests for ever", "src/kit/database/DatabaseCallbacks.cpp",
-          "if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);", "", NODE, "MissingTiles.*:VerticalScale.*"),
+          "if (node == _node && _database->needsUpdate(shape)) putUpdateCallback(*node, *_database, node);", "", NODE, "MissingTiles.*:VerticalScale.*"),
     Fault("what is reported while files are read waits for the next update", "src/kit/database/Database.cpp",
           "    tile.doubt(InstalledTile::Outgrown);\n", "", NODE, "FalseBins.*:AddedContent.*"),
 

@@ -32,7 +32,7 @@ struct CullCallbacks {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
-            } else if (isForeign(*at) && !isHarmless(*at)) {
+            } else if (!isHarmless(*at) && isForeign(*at)) {
                 mayLeaveOut = isUnknown = true;
             }
         }

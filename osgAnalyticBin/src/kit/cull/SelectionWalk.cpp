@@ -21,6 +21,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin {
 
@@ -105,23 +106,15 @@ bool SelectionWalk::isPassedOver(const osg::Group& group, const TileFamily& fami
     return BoundWatch::isOn(group);
 }
 
-const SelectionWalk::StandingEye& SelectionWalk::standing() {
-    const core::Ellipsoid& ellipsoid = _view.ellipsoid;
-    if (!_standing)
-        _standing = {toOsg(ellipsoid.toEcef(*_search.place)),
-                     toOsg(ellipsoid.up(_search.place->latitude, _search.place->longitude))};
-    return *_standing;
-}
-
 // Whether a sphere is about the eye or above it.
 bool SelectionWalk::isOverEye(const osg::Vec3d& center, double radius) {
-    const auto& [at, up] = standing();
-    const osg::Vec3d toCenter = center - at;
-    return (toCenter - up * std::max(0.0, toCenter * up)).length() <= radius;
+    if (!_up) _up = toOsg(_view.ellipsoid.up(_search.place->latitude, _search.place->longitude));
+    const osg::Vec3d toCenter = center - _search.eye;
+    return (toCenter - *_up * std::max(0.0, toCenter * *_up)).length() <= radius;
 }
 
 // As isAbout(), by what is at hand. Requires: a place.
-bool SelectionWalk::mayBeAbout(const TileBlock::Slot& tile) {
+bool SelectionWalk::mayBeAbout(const TileBlock::Slot& tile) const {
     constexpr double kRounding = 1e-6;  // of numbers in floats, and more
     const double altitude = _search.place->altitude;
     if (altitude > tile.altitude.upper) return false;
@@ -130,7 +123,9 @@ bool SelectionWalk::mayBeAbout(const TileBlock::Slot& tile) {
     if (!isInSphere || !tile.column.valid()) return true;
     const osg::Vec3d center = tile.column.center();
     const double radius = tile.column.radius();
-    return (standing().at - center).length() <= radius + kRounding * (center.length() + radius);
+    const double size = std::abs(center.x()) + std::abs(center.y()) + std::abs(center.z()) + radius;
+    const double reach = radius + kRounding * size;
+    return (_search.eye - center).length2() <= reach * reach;
 }
 
 // Does not read tiles that are neither kept nor searched.
@@ -250,8 +245,9 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     const DrawnState drawn = stateOf(node);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : siblings.verdicts.planes.undecided[number]);
-    const Scoped outOfView(_isBelowOutOfView,
-                           _isBelowOutOfView || (_searches && numbers.testsSphere && isLeftOut(node)));
+    // the spheres of those that are kept were tested
+    const bool mayBeLeftOut = _searches && numbers.testsSphere && !hasBit(siblings.kept, number);
+    const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (mayBeLeftOut && isLeftOut(node)));
     const bool mayLeaveOut = _searches && !isAlone && CullCallbacks(node).mayLeaveOut;
     tile.isCertain = hasBit(siblings.certain, number);
     const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();

@@ -36,6 +36,7 @@ public:
     /// What evidence is collected for.
     struct Search {
         std::optional<core::Geodetic> place;  ///< of the eye, where it has one
+        osg::Vec3d eye{};                     ///< the same in ECEF
         double occluder = 0.0;                ///< metres below the ellipsoid of the occluder; minus infinity: none
         double deepest = 0.0;                 ///< the same: nothing is drawn below
         bool isEager = false;                 ///< a tile that is not drawn whole ends the walk at once
@@ -94,11 +95,6 @@ private:
         bool mayHoldEye = false;
     };
 
-    struct StandingEye {
-        osg::Vec3d at, up;
-    };
-    [[nodiscard]] const StandingEye& standing();
-
     void selectChildren(osg::Group& group, const TileFamily* family);
     void selectFamily(osg::Group& group, const TileFamily& family);
     [[nodiscard]] std::uint64_t keptOf(const TileFamily& family, unsigned int first,
@@ -134,7 +130,7 @@ private:
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
     [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);
-    [[nodiscard]] bool mayBeAbout(const TileBlock::Slot& tile);
+    [[nodiscard]] bool mayBeAbout(const TileBlock::Slot& tile) const;
     [[nodiscard]] bool isColumnSeen(const TileBlock::Slot& numbers, const TileBlock& block, unsigned int slot) const;
     [[nodiscard]] osg::BoundingSphere sphereOf(const osg::Node& node) const;
     [[nodiscard]] bool isLeftOut(const osg::Node& node) const;
@@ -162,7 +158,7 @@ private:
     const bool _isPlainVisitor;
     const osg::Polytope::PlaneList& _planes;
     bool _testsSmallFeatures = false;
-    std::optional<StandingEye> _standing;  // once it is needed
+    std::optional<osg::Vec3d> _up;  // at the eye, once it is needed
 
     // Of the node where the walk is:
     bool _searches = false;                  // for evidence

@@ -4,6 +4,7 @@
 #include "ShownDepth.h"
 
 #include "../../core/EarthScale.h"
+#include "../GlmBridge.h"
 #include "../tile/InstalledTile.h"
 #include "SelectionWalk.h"
 
@@ -17,9 +18,14 @@ namespace osgAnalyticBin {
 
 namespace {
 
-std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::Ellipsoid& ellipsoid) {
-    if (!viewpoint.eye()) return std::nullopt;
-    return ellipsoid.toGeodetic(*viewpoint.eye());
+// For one that is at no depth yet.
+SelectionWalk::Search searchFrom(const Viewpoint& viewpoint, const DatabaseView& view) {
+    SelectionWalk::Search search;
+    search.isEager = view.expectsHole;
+    if (!viewpoint.eye()) return search;
+    search.place = view.ellipsoid.toGeodetic(*viewpoint.eye());
+    search.eye = toOsg(*viewpoint.eye());
+    return search;
 }
 
 // False in doubt, and for terrain tiles whose technique may draw the mesh elsewhere.
@@ -53,7 +59,10 @@ bool isTrusted(const DatabaseView& view, const SelectionWalk& walk, const std::o
 }
 
 // Selects for an eye; null: nothing is hidden.
-SelectionWalk walkFor(const DatabaseView& view, const core::HorizonEye* eye, const SelectionWalk::Search& search) {
+SelectionWalk walkFor(const DatabaseView& view, const core::HorizonEye* eye, SelectionWalk::Search search,
+                      double occluder, double deepest) {
+    search.occluder = occluder;
+    search.deepest = deepest;
     SelectionWalk walk(view, eye, &search);
     walk.select(view.root);
     return walk;
@@ -69,7 +78,8 @@ std::optional<FoundEye> eyeAboveWhatIsShown(const DatabaseView& view, const View
     constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
     const core::Ellipsoid& ellipsoid = view.ellipsoid;
-    const std::optional<core::Geodetic> place = placeOf(viewpoint, ellipsoid);
+    const SelectionWalk::Search search = searchFrom(viewpoint, view);
+    const std::optional<core::Geodetic>& place = search.place;
     const double step = 500.0 * core::earthScale(ellipsoid);
     depth = std::clamp(depth, 0.0, deepest);
     for (int round = 0; round < kMostRounds; ++round) {
@@ -81,7 +91,7 @@ std::optional<FoundEye> eyeAboveWhatIsShown(const DatabaseView& view, const View
             continue;
         }
         if (view.region && !view.region->holdsHorizonOf(*eye)) return std::nullopt;
-        const SelectionWalk lowest = walkFor(view, &*eye, {place, depth, deepest, view.expectsHole});
+        const SelectionWalk lowest = walkFor(view, &*eye, search, depth, deepest);
         if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
@@ -105,15 +115,15 @@ std::optional<core::HorizonEye> eyeAboveDepth(const DatabaseView& view, const Vi
     const core::Ellipsoid& ellipsoid = view.ellipsoid;
     const auto eye = viewpoint.above(ellipsoid, depth);
     if (!eye) return std::nullopt;
-    const std::optional<core::Geodetic> place = placeOf(viewpoint, ellipsoid);
-    const SelectionWalk walk = walkFor(view, &*eye, {place, depth, depth, view.expectsHole});
-    return isTrusted(view, walk, place) ? eye : std::nullopt;
+    const SelectionWalk::Search search = searchFrom(viewpoint, view);
+    const SelectionWalk walk = walkFor(view, &*eye, search, depth, depth);
+    return isTrusted(view, walk, search.place) ? eye : std::nullopt;
 }
 
 bool selectWithoutHorizon(const DatabaseView& view, const Viewpoint& viewpoint) {
     constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
-    const std::optional<core::Geodetic> place = placeOf(viewpoint, view.ellipsoid);
-    return isTrusted(view, walkFor(view, nullptr, {place, -kUnknownDepth, kUnknownDepth, view.expectsHole}), place);
+    const SelectionWalk::Search search = searchFrom(viewpoint, view);
+    return isTrusted(view, walkFor(view, nullptr, search, -kUnknownDepth, kUnknownDepth), search.place);
 }
 
 }  // namespace osgAnalyticBin

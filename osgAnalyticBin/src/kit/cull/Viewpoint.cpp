@@ -13,6 +13,9 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace osgAnalyticBin {
@@ -101,19 +104,18 @@ namespace {
 // How far the near plane of a perspective projection is from the eye at most; infinite when in doubt. Depths of 0 and 1
 // in clip space are at the near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
 double reachOfNearPlane(const osg::Matrixd& p, const osg::Matrixd& eyeToWorld) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const double depth : {0.0, 1.0}) {
-        double farthest = 0.0;
-        for (int corner = 0; corner < 4; ++corner) {
-            const osg::Vec3d sight = sightThroughCorner(p, corner);
-            const double z = p(3, 2) / (depth * p(2, 3) - p(2, 2) - sight.x() * p(0, 2) - sight.y() * p(1, 2));
-            const double distance = z * p(2, 3) > 0.0 ? osg::Matrixd::transform3x3(sight * z, eyeToWorld).length()
-                                                      : std::numeric_limits<double>::infinity();
-            if (!(distance <= farthest)) farthest = distance;
+    std::array<double, 2> farthest{};  // at depths of 0 and 1
+    for (int corner = 0; corner < 4; ++corner) {
+        const osg::Vec3d sight = sightThroughCorner(p, corner);
+        const double length = osg::Matrixd::transform3x3(sight, eyeToWorld).length();
+        for (std::size_t depth = 0; depth < farthest.size(); ++depth) {
+            const double z =
+                p(3, 2) / (static_cast<double>(depth) * p(2, 3) - p(2, 2) - sight.x() * p(0, 2) - sight.y() * p(1, 2));
+            const double distance = z * p(2, 3) > 0.0 ? length * std::abs(z) : std::numeric_limits<double>::infinity();
+            if (!(distance <= farthest[depth])) farthest[depth] = distance;
         }
-        nearest = std::min(nearest, farthest);
     }
-    return nearest;
+    return std::min(farthest[0], farthest[1]);
 }
 
 // The corner of an orthographic picture at which the near plane, which may be tilted, is farthest along the view.

@@ -62,7 +62,6 @@ void Database::setOptions(const CullOptions& options) {
 }
 
 bool Database::replacesClusters() const {
-    const std::lock_guard<std::mutex> lock(_mutex);
     return _options.cluster == ClusterUse::Replace && _options.method != Method::Sphere && !isMap();
 }
 
@@ -136,16 +135,21 @@ void Database::noteOnItsWay(osg::Node& content, unsigned int generation, bool is
     if (_onTheirWay.size() > kMost) _onTheirWay.erase(_onTheirWay.begin(), _onTheirWay.begin() + kMost / 2);
 }
 
-void Database::findMerged() {
+// Requires: the lock.
+void Database::takeFirstMerged() {
     constexpr std::size_t kMany = 64;
-    const std::lock_guard<std::mutex> lock(_mutex);
     takeMerged(_onTheirWay.size() > kMany);
 }
 
-bool Database::needsUpdate() {
-    findMerged();
-    const osg::ref_ptr<TileBoundsSource> making = this->making();
-    return isUpdateWanted() || (making && !index() && making->whole()) || !(shape(options()) == fittedShape());
+bool Database::needsUpdate(const TerrainShape& present) {
+    osg::ref_ptr<TileBoundsSource> making;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        takeFirstMerged();
+        if (isUpdateWanted() || !(present == _fittedShape)) return true;
+        if (!_index) making = _making;
+    }
+    return making && making->whole();
 }
 
 TerrainShape Database::shape(const CullOptions& options) const {
@@ -285,7 +289,10 @@ void Database::renewFamilies() {
 
 void Database::update() {
     beginUpdate();
-    findMerged();
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        takeFirstMerged();
+    }
     renewFamilies();
     makePlates();
     adoptIndex();

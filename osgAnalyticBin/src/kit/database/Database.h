@@ -69,6 +69,8 @@ public:
     [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
 
     [[nodiscard]] CullOptions options() const;
+    /// The same without a copy, for cull traversals.
+    [[nodiscard]] const CullOptions& optionsOfCull() const { return _options; }
 
     /// Replaces the options. Tiles that were installed with the old ones but are not merged into the scene yet are
     /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
@@ -113,7 +115,8 @@ public:
 
     /// Whether update() has something to do, or will have once what is on its way is merged. The database's update
     /// callback is on its node only meanwhile: viewers that draw on demand draw frames as long as there is one.
-    [[nodiscard]] bool needsUpdate();
+    /// `present`: shape() of the options.
+    [[nodiscard]] bool needsUpdate(const TerrainShape& present);
 
     /// In the update traversal: whether all loaded tiles have to be fitted again. Resets the answer.
     [[nodiscard]] bool takeShapeChange();
@@ -192,7 +195,7 @@ private:
     void adoptIndex();
     void beginGeneration();
     void takeMerged(bool isForAll);
-    void findMerged();
+    void takeFirstMerged();
     void makePlates();
     void renewFamilies();
 

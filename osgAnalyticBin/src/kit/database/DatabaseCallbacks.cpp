@@ -90,6 +90,7 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
     const bool isCulling = cullStack && group && _database->isCulling() && node == _node;
+    const TerrainShape shape = _database->shape(_database->optionsOfCull());
     const CullComparison::View compared(isCulling ? _comparison.get() : nullptr, *node, *nv);
     std::optional<WithoutClusterCulling> clusters;
     if (cullStack && node == _node && !compared.isStock() && _database->replacesClusters())
@@ -97,12 +98,12 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (compared.isStock()) {
         leaveToOsg(*node, *nv);
     } else if (isCulling) {
-        cull(*group, *nv, *cullStack);
+        cull(*group, *nv, *cullStack, shape);
     } else {
         traverse(node, nv);
     }
     _database->noteCull();
-    if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);
+    if (node == _node && _database->needsUpdate(shape)) putUpdateCallback(*node, *_database, node);
     // a clone
     if (!_node) putUpdateCallback(*node, *_database, nullptr);
 }
@@ -116,7 +117,8 @@ void DatabaseCullCallback::leaveToOsg(osg::Node& node, osg::NodeVisitor& nv) {
     traverse(&node, &nv);
 }
 
-void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack) {
+void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                                const TerrainShape& shape) {
     // makes tiles notice what was added below them
     (void)node.getBound();
     if (!BoundWatch::isOn(node)) {
@@ -126,8 +128,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     }
     if (isBelowOtherTerrain(nv.getNodePath(), *_database)) return leaveToOsg(node, nv);
     CullTraversal& traversal = CullTraversal::of(nv);
-    const CullOptions options = _database->options();
-    const TerrainShape shape = _database->shape(options);
+    const CullOptions& options = _database->optionsOfCull();
     const DatabaseRest::Turn turn = mayRest(nv, traversal, shape)
                                         ? traversal.lastView(*_database).databaseRest.next(_database->arrivals())
                                         : DatabaseRest::Turn::Bins;
@@ -198,7 +199,8 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (node != _node) return runOnClone(*node, *nv);
     bringUpToDate(*node, *_database);
     traverse(node, nv);
-    if (_database->takeCull() && !_database->needsUpdate()) takeOffUpdate(*node, self);
+    const TerrainShape shape = _database->shape(_database->options());
+    if (_database->takeCull() && !_database->needsUpdate(shape)) takeOffUpdate(*node, self);
 }
 
 void attachDatabase(osg::Node& node, Database& database, bool isCulling) {

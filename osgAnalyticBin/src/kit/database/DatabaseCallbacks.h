@@ -36,7 +36,7 @@ protected:
     ~DatabaseCullCallback() override = default;
 
 private:
-    void cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack);
+    void cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, const TerrainShape& shape);
     void leaveToOsg(osg::Node& node, osg::NodeVisitor& nv);
 
     const osg::ref_ptr<Database> _database;
