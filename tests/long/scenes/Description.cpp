@@ -56,6 +56,11 @@ bool hasScaledTerrain(const Description& description) {
            std::any_of(description.parts.begin(), description.parts.end(), scales);
 }
 
+bool hasTerrain(const Description& description) {
+    return std::any_of(description.databases.begin(), description.databases.end(),
+                       [](const DatabaseSpec& database) { return database.mesh == MeshKind::Terrain; });
+}
+
 bool isModel(PartKind kind) {
     return kind == PartKind::Tower || kind == PartKind::Vehicle || kind == PartKind::Sign || kind == PartKind::Unculled;
 }

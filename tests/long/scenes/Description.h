@@ -235,4 +235,7 @@ constexpr int kGroupClasses = 6;
 /// culled.
 [[nodiscard]] bool hasScaledTerrain(const Description& description);
 
+/// Whether a database consists of osgTerrain tiles.
+[[nodiscard]] bool hasTerrain(const Description& description);
+
 }  // namespace osgAnalyticBin::test
