@@ -83,8 +83,23 @@ TEST(Changes, OfVerticesThatAreAnnouncedCountInTheSameFrameAndWhatIsWholeAgainAf
     EXPECT_FALSE(globe.drawsAntipode());
 }
 
+// A triangle in the middle becomes a point.
+TEST(Changes, OfTrianglesCountAlsoWhereNewOnesTakeThePlaceOfOldOnesInMemory) {
+    InstalledGlobe globe;
+    osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
+    const auto& old = dynamic_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+    std::vector<GLuint> indices(old.begin(), old.end());
+    GLuint* const middle = &indices[indices.size() / 6 * 3];
+    middle[1] = middle[2] = middle[0];
+    EXPECT_FALSE(globe.drawsAntipode());
+    geometry.removePrimitiveSet(0);
+    geometry.addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, indices.begin(), indices.end()));
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
 TEST(Changes, OfVerticesWithoutAWordCountWhenBinsAreInstalledAgain) {
     FiledGlobe globe;
+    (void)globe.root->getBound();
     auto& vertices = verticesOf(*globe.group);
     const auto highest = [&globe] { return installedOn(*globe.tile)->getBin().bin().altitude().upper; };
     vertices[40] += osg::Vec3(ecefDeg(20, 20, 1.0) / ecefDeg(20, 20, 1.0).length() * 12000.0);

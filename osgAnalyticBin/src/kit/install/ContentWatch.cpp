@@ -129,6 +129,11 @@ void mixSurface(std::uint64_t& hash, const osg::Node& part) {
     }
 }
 
+// Of vertices and triangles themselves: a new array may get the address of an old one.
+std::uint64_t contentOf(const osg::Node& mesh) {
+    return surfaceFingerprint(const_cast<osg::Node&>(mesh), osg::Matrixd());
+}
+
 // Of the bounds of what has no children, for vertices that moved without a word. Never 0.
 std::uint64_t boundsOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
@@ -344,7 +349,9 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_tile = tile;
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
-    const auto add = [&watch](const osg::Node& mesh) { watch->_fitted.push_back({&mesh, stateOf(mesh), 0}); };
+    const auto add = [&watch](const osg::Node& mesh) {
+        watch->_fitted.push_back({&mesh, stateOf(mesh), contentOf(mesh), 0});
+    };
     for (const auto& mesh : fitted) {
         const osg::Group* const group = mesh == &node && !asTerrain(node) ? node.asGroup() : nullptr;
         if (mesh != &node || asTerrain(node)) add(*mesh);
@@ -391,7 +398,7 @@ bool ContentWatch::hasNewContent(const osg::Node& node) {
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        if (!watch->isWatched(child) && !watch->isFitted(child, false)) return true;
+        if (!watch->isWatched(child) && !watch->isFitted(child, false, true)) return true;
     }
     return false;
 }
@@ -407,10 +414,11 @@ bool ContentWatch::isWatched(const osg::Node& child) const {
 }
 
 // bounds are not computed before OSG does so: it may crash on those of broken meshes
-bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
+bool ContentWatch::isFitted(const osg::Node& child, bool withBounds, bool withContent) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
     if (known == _fitted.end() || !(known->state == stateOf(child))) return false;
+    if (withContent && known->content != contentOf(child)) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
     if (known->bounds == 0) known->bounds = bounds;
@@ -458,7 +466,8 @@ void ContentWatch::check(const osg::Node& node) const {
     bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        const bool isUnchanged = isOwnFrame && !isBoundDue(child) && isHeld(i, child);
+        const bool isDue = isBoundDue(child);
+        const bool isUnchanged = isOwnFrame && !isDue && isHeld(i, child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
         // the watch of the child would do this, if there were one
@@ -469,7 +478,7 @@ void ContentWatch::check(const osg::Node& node) const {
         if (isWatched(child) && !drawsBesideChildren(child)) continue;
         // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
-        if (isOwnFrame && isFitted(child, true)) {
+        if (isOwnFrame && isFitted(child, true, isDue)) {
             ++fitted;
             continue;
         }
@@ -485,7 +494,7 @@ void ContentWatch::check(const osg::Node& node) const {
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);
     if (group && isOther && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
     if (hasMore) noteMoreThanMesh(node);
-    if (group || _fitted.empty() || isFitted(node, true)) return;
+    if (group || _fitted.empty() || isFitted(node, true, false)) return;
     // an osgTerrain tile that has other heights
     fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
     if (isMergedNow()) doubtMeshOf(node, false);

@@ -67,6 +67,7 @@ private:
     struct Fitted {
         const osg::Node* node;
         State state;
+        std::uint64_t content;
         mutable std::uint64_t bounds;  // 0: not known yet
     };
 
@@ -82,7 +83,8 @@ private:
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     // Whether a child looks after itself, and is below the same tile as when its watch was placed.
     [[nodiscard]] bool isWatched(const osg::Node& child) const;
-    [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
+    // `withContent`: for children that OSG has been told of.
+    [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds, bool withContent) const;
     // Whether the watched node is in the scene. If not, it is looked at again when it is: until then nothing that is
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
