@@ -60,6 +60,16 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
 }
 
+TEST(Models, BesideTilesAreLeftToOsgWhereOthersMove) {
+    GlobeWithModels globe;
+    const osg::ref_ptr<osg::MatrixTransform> moving = makeTower(ecefDeg(20, 20, 100.0));
+    globe.root->addChild(globe.models.group);
+    globe.root->addChild(moving);
+    globe.install();
+    moving->setMatrix(osg::Matrixd::translate(ecefDeg(20, 21, 100.0)));
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+}
+
 // Tiles below a transform are not tested together; nor are those below an osgTerrain::Terrain.
 TEST(Models, BesideTilesBelowATransformAreLeftToOsg) {
     GlobeWithModels globe;

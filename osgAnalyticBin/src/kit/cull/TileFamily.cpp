@@ -200,15 +200,14 @@ bool TileFamily::needsWatch(const osg::Node& group) {
     return family && (family->_hasTiles || family->_hasGroups);
 }
 
-bool TileFamily::holds(const osg::Node& group, unsigned int child) {
+const TileFamily* TileFamily::of(const osg::Node& group) {
     const TileFamily* const family = familyOf(group);
-    return family && family->_group == &group && child < family->size() &&
-           family->_nodes[child] == group.asGroup()->getChild(child);
+    return family && family->_group == &group ? family : nullptr;
 }
 
 void TileFamily::look(const osg::Node& node) {
-    const TileFamily* const family = familyOf(node);
-    if (!family || family->_group != &node || !family->hasChanged(*node.asGroup())) return;
+    const TileFamily* const family = of(node);
+    if (!family || !family->hasChanged(*node.asGroup())) return;
     if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
 }
 

@@ -107,8 +107,12 @@ public:
     /// Whether a group has a family that has to notice changes among the children. Others are only above groups,
     /// perhaps deep in each other, where watches would need much stack.
     [[nodiscard]] static bool needsWatch(const osg::Node& group);
-    /// Whether a group has a family that holds this child, as a tile or as a node above tiles.
-    [[nodiscard]] static bool holds(const osg::Node& group, unsigned int child);
+    /// The family that was made for a group. Returns: nullptr where there is none.
+    [[nodiscard]] static const TileFamily* of(const osg::Node& group);
+    /// Whether it holds a child, as a tile or as a node above tiles.
+    [[nodiscard]] bool holds(unsigned int slot, const osg::Node& child) const {
+        return slot < _nodes.size() && _nodes[slot] == &child;
+    }
 
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
     static void look(const osg::Node& node);

@@ -25,8 +25,11 @@
 
 #include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
+#include <osg/Geode>
 #include <osg/Geometry>
+#include <osg/Group>
 #include <osg/Image>
+#include <osg/MatrixTransform>
 #include <osg/Transform>
 #include <osgTerrain/Layer>
 #include <osgTerrain/TerrainTile>
@@ -44,8 +47,14 @@ const ContentWatch* watchOf(const osg::Node& node) {
     return dynamic_cast<const ContentWatch*>(node.getComputeBoundingSphereCallback());
 }
 
+// Whether a node is of one of the classes that most nodes are of. Models may have thousands of them.
+bool isOfCommonClass(const osg::Node& node) {
+    return isExactly<osg::Geometry>(node) || isExactly<osg::Geode>(node) || isExactly<osg::MatrixTransform>(node) ||
+           isExactly<osg::Group>(node);
+}
+
 const osgTerrain::TerrainTile* asTerrain(const osg::Node& node) {
-    return dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+    return isOfCommonClass(node) ? nullptr : dynamic_cast<const osgTerrain::TerrainTile*>(&node);
 }
 
 void mix(std::uint64_t& hash, std::uint64_t value) {
@@ -109,7 +118,8 @@ void mixSurface(std::uint64_t& hash, const osg::Node& part) {
         mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
         mixBlending(hash, *terrain);
     }
-    if (const auto* const billboard = dynamic_cast<const osg::Billboard*>(&part)) {
+    const auto* const billboard = isOfCommonClass(part) ? nullptr : dynamic_cast<const osg::Billboard*>(&part);
+    if (billboard) {
         for (const osg::Vec3& position : billboard->getPositionList()) {
             for (int axis = 0; axis < 3; ++axis) mixFloat(hash, position[axis]);
         }
@@ -172,6 +182,12 @@ bool isBelowDatabase(const osg::Node& node) {
                         attachedDatabase(const_cast<osg::Node&>(node)) != nullptr;
     return isRoot || std::any_of(node.getParents().begin(), node.getParents().end(),
                                  [](const osg::Group* parent) { return isBelowDatabase(*parent); });
+}
+
+// Whether a tile has to hold what stands among the node's children.
+bool isInTile(const osg::Node& node) {
+    return installedTileOf(node) || std::any_of(node.getParents().begin(), node.getParents().end(),
+                                                [](const osg::Group* parent) { return isInTile(*parent); });
 }
 
 // Content below tiles, as it is passed up from one tile to the next.
@@ -461,7 +477,14 @@ void ContentWatch::check(const osg::Node& node) const {
         if (!isInScene) isInScene = isMerged(node);
         return *isInScene;
     };
+    // beside tiles there may be thousands of models
+    std::optional<bool> isContent;
+    const auto isInTileNow = [&] {
+        if (!isContent) isContent = _tile || !isMergedNow() || isInTile(node);
+        return *isContent;
+    };
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    const TileFamily* const family = TileFamily::of(node);
     std::size_t fitted = 0;
     bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
@@ -471,11 +494,11 @@ void ContentWatch::check(const osg::Node& node) const {
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
         // the watch of the child would do this, if there were one
-        if (!watchOf(child) && TileFamily::holds(node, i)) forEachPart(child, keepUnwatchedVisible);
+        if (family && family->holds(i, child) && !watchOf(child)) forEachPart(child, keepUnwatchedVisible);
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
-        if (isWatched(child) && !drawsBesideChildren(child)) continue;
+        if ((isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
         // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, true, isDue)) {
