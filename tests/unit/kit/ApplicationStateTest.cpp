@@ -60,6 +60,32 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesAMeshAway) {
 }
 
 // Where OSG chooses by pixels the kit does not know what it will choose, but it knows whether there is a choice.
+// A tile below the eye is divided into four, one of these again, and so on: the last one is 600 m wide.
+TEST(HoledGlobe, IsSeenThroughWhereOneOfItsSmallestTilesIsMissing) {
+    for (const bool hasHole : {false, true}) {
+        MeshGlobe globe;
+        globe.root->removeChild(globe.tiles[19]);
+        const auto add = [&globe](double south, double west, double width) {
+            globe.root->addChild(
+                makePaged(makeMeshTile(extentsDeg(south, south + width, west, west + width), 0.0), "no.osgb"));
+        };
+        double south = 0.0, west = -45.0, width = 45.0;
+        for (int level = 0; level < 13; ++level) {
+            width /= 2.0;
+            // nearer and nearer to the middle of the tile, from the south west
+            const int inside = level == 0 ? 0 : 3;
+            for (int quarter = 0; quarter < 4; ++quarter)
+                if (quarter != inside) add(south + width * (quarter / 2), west + width * (quarter % 2), width);
+            south += width * (inside / 2);
+            west += width * (inside % 2);
+        }
+        if (!hasHole) add(south, west, width);
+        installBins(*globe.root);
+        update(*globe.root);
+        globe.expectAntipode(hasHole);
+    }
+}
+
 TEST(HoledGlobe, IsSeenThroughWhereNoLevelIsDue) {
     for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
         InstalledGlobe globe;

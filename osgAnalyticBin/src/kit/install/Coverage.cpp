@@ -15,19 +15,21 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+constexpr core::Interval kNoHeight{0.0, 0.0};
+
 using Places = std::vector<core::GeodeticBin>;
 
-// The length that intervals cover together.
-double lengthOf(std::vector<core::Interval>& intervals) {
+// The length of an interval that others, which are within it, leave open.
+double openLength(const core::Interval& whole, std::vector<core::Interval>& intervals) {
     std::sort(intervals.begin(), intervals.end(),
               [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
     double length = 0.0;
-    double end = -1e9;
+    double end = whole.lower;
     for (const core::Interval& interval : intervals) {
-        length += std::max(0.0, interval.upper - std::max(interval.lower, end));
+        length += std::max(0.0, interval.lower - end);
         end = std::max(end, interval.upper);
     }
-    return length;
+    return length + std::max(0.0, whole.upper - end);
 }
 
 // Square radians on the map of latitudes and longitudes, not on the globe.
@@ -35,9 +37,10 @@ double areaOf(const core::GeodeticBin& place) {
     return place.latitude().width() * place.longitude().width();
 }
 
-// What places cover together, strip by strip from the south, between the latitudes at which one begins or ends.
-double areaOf(const Places& places) {
-    std::vector<double> latitudes;
+// What places within a whole one leave open, strip by strip from the south, between the latitudes at which one begins
+// or ends. It is added up by itself: a small hole is lost in the rounding of large areas.
+double openArea(const core::GeodeticBin& whole, const Places& places) {
+    std::vector<double> latitudes{whole.latitude().lower, whole.latitude().upper};
     for (const core::GeodeticBin& place : places)
         latitudes.insert(latitudes.end(), {place.latitude().lower, place.latitude().upper});
     std::sort(latitudes.begin(), latitudes.end());
@@ -51,7 +54,7 @@ double areaOf(const Places& places) {
             const bool isInStrip = place.latitude().lower <= south && place.latitude().upper >= north;
             if (isInStrip) longitudes.push_back(place.longitude());
         }
-        area += (north - south) * lengthOf(longitudes);
+        area += (north - south) * openLength(whole.longitude(), longitudes);
     }
     return area;
 }
@@ -91,6 +94,7 @@ void Coverage::expectGlobe() {
 void Coverage::add(const core::GeodeticBin& place, bool isExact) {
     if (place.empty()) return;
     _isExact = _isExact && isExact;
+    _smallest = std::min(_smallest, areaOf(place));
     _tallest = std::max(_tallest, place.latitude().width());
     _widest = std::max(_widest, place.longitude().width());
     constexpr double kSeam = 2e-6;  // of a tile: vertices of neighbours are rounded apart
@@ -105,7 +109,8 @@ bool Coverage::hasGap() const {
 }
 
 bool Coverage::covers(const core::GeodeticBin& place) const {
-    constexpr double kRounding = 1e-9;
+    // a tile that is missing may be as small as the smallest one that is there
+    constexpr double kRounding = 1e-9, kOfSmallest = 1e-3;
     Places within;
     const auto common = [](const core::Interval& a, const core::Interval& b) {
         return core::Interval{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
@@ -113,10 +118,12 @@ bool Coverage::covers(const core::GeodeticBin& place) const {
     for (const core::GeodeticBin& tile : _places) {
         for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
             const core::Interval turned{tile.longitude().lower + turn, tile.longitude().upper + turn};
-            addTo(within, common(tile.latitude(), place.latitude()), common(turned, place.longitude()));
+            const core::Interval latitude = common(tile.latitude(), place.latitude());
+            const core::Interval longitude = common(turned, place.longitude());
+            if (latitude.width() > 0.0 && longitude.width() > 0.0) within.emplace_back(latitude, longitude, kNoHeight);
         }
     }
-    return areaOf(place) - areaOf(within) <= kRounding * areaOf(place);
+    return openArea(place, within) <= std::min(kRounding * areaOf(place), kOfSmallest * _smallest);
 }
 
 // From the first to the last tile eastward, beginning after the widest strip of longitudes without tiles.

@@ -7,6 +7,7 @@
 
 #include <osg/ref_ptr>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ private:
 
     std::vector<core::GeodeticBin> _places;  // none crosses the date line; grown by the seams between neighbours
     double _tallest = 0.0, _widest = 0.0;    // radians of latitude and longitude
-    core::GeodeticBin _expected;             // empty: not known
+    double _smallest = std::numeric_limits<double>::infinity();  // area of a place, square radians
+    core::GeodeticBin _expected;                                 // empty: not known
     osg::ref_ptr<InstalledTile> _tile;
     bool _isVisited = false, _isOfGlobe = false, _isExact = true;
 };
