@@ -309,11 +309,15 @@ TEST(Rest, IsNotForVisitorsThatWatchTiles) {
 
 // The application's sphere lies: OSG would leave the tile out.
 TEST(Rest, IsNotForTilesThatOsgWouldLeaveOut) {
+    struct LyingBound : osg::Node::ComputeBoundingSphereCallback {
+        osg::BoundingSphere computeBound(const osg::Node&) const override {
+            return {osg::Vec3f(0.0f, 0.0f, 3e8f), 1.0f};
+        }
+    };
     RestingGlobe globe(optionsOf("horizon=off"));
     osg::PagedLOD& tile = *globe.tiles[19];
-    tile.setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-    tile.setCenter(osg::Vec3d(0, 0, 3e8));
-    tile.setRadius(1.0);
+    tile.setComputeBoundingSphereCallback(new LyingBound);
+    globe.install(optionsOf("horizon=off"));
     EXPECT_FALSE(globe.rests(ofAllTiles()));
     EXPECT_EQ(globe.last.drawn.size(), globe.tiles.size());
 }

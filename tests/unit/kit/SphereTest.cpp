@@ -32,6 +32,29 @@ TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
     EXPECT_LT(counts.tested, 64u);
 }
 
+// Here the sphere that is set does not even hold the tile's own mesh.
+TEST(Spheres, OfPagedLodsThatTheApplicationHasSetHoldWhatIsLoadedBelow) {
+    for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
+        MeshGlobe globe;
+        osg::PagedLOD& tile = *globe.tiles[19];
+        const osg::BoundingSphere sphere = tile.getChild(0)->getBound();
+        tile.setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        tile.setCenter(sphere.center());
+        tile.setRadius(0.1f * sphere.radius());
+        tile.setRangeMode(mode);
+        tile.setRange(0, 0.0f, 1e10f);
+        installBins(*globe.root, optionsOf("horizon=off"));
+        const bool isByDistance = mode == osg::LOD::DISTANCE_FROM_EYE_POINT;
+        EXPECT_EQ(globe.draws(tile, downTo(4, -4)), isByDistance);
+        EXPECT_EQ(tile.getBound().radius() >= sphere.radius(), isByDistance);
+        EXPECT_EQ(tile.getBound().center(), sphere.center());
+        // what the bin of a tile holds needs no larger sphere
+        tile.setRadius(2.0f * sphere.radius());
+        tile.dirtyBound();
+        EXPECT_EQ(tile.getBound().radius(), 2.0f * sphere.radius());
+    }
+}
+
 // An application's own bound of a group. What OSG leaves out by it hides nothing.
 struct FixedBound : osg::Node::ComputeBoundingSphereCallback {
     explicit FixedBound(const osg::BoundingSphere& sphere) : bound(sphere) {}

@@ -29,6 +29,7 @@
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osg/Image>
+#include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/Transform>
 #include <osgTerrain/Layer>
@@ -288,15 +289,41 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
-// Holds what a tile of osgTerrain draws in a vertical scale, which OSG's own bound is made without. Not valid: there is
-// no such scale.
-osg::BoundingSphere scaledTerrainOf(const osg::Node& node) {
+// About what a tile's bin holds, in the frame above the tile. Not valid: it is not known.
+osg::BoundingSphere sphereOfBin(const osg::Node& node) {
     const AnalyticBinCullCallback* const tile = installedBinOf(node);
-    if (!tile || !tile->getTerrainShape() || tile->getTerrainShape()->verticalScale == 1.0) return {};
-    const AnalyticBin shown = tile->shownBin();
+    const AnalyticBin shown = tile ? tile->shownBin() : AnalyticBin();
     if (!shown.valid() || node.asTransform()) return {};
     const osg::BoundingSphere sphere = shown.boundingSphere(*tile->getInstalledTile()->database().ellipsoid());
     return movedSphere(sphere, osg::Matrixd::inverse(tile->getLocalToEcef()));
+}
+
+// Whether a tile of osgTerrain is drawn in a vertical scale, which OSG's own bound is made without.
+bool isScaledTerrain(const osg::Node& node) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(node);
+    return tile && tile->getTerrainShape() && tile->getTerrainShape()->verticalScale != 1.0;
+}
+
+// Whether the application has set the sphere of a level of detail so that it may not hold what is loaded there. Where
+// the level is chosen by pixels its sphere has to stay as it is.
+bool mayBeTooSmall(const osg::BoundingSphere& sphere, const osg::Node& node) {
+    const auto* const lod = dynamic_cast<const osg::LOD*>(&node);
+    const bool isSet = lod && lod->getCenterMode() == osg::LOD::USER_DEFINED_CENTER && lod->getRadius() >= 0.0f &&
+                       lod->getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT;
+    const osg::BoundingSphere ofBin = isSet ? sphereOfBin(node) : osg::BoundingSphere();
+    constexpr double kRounding = 1e-6;
+    const double room = kRounding * (osg::Vec3d(sphere.center()).length() + static_cast<double>(sphere.radius()));
+    const double reach = (osg::Vec3d(ofBin.center()) - osg::Vec3d(sphere.center())).length() + ofBin.radius();
+    return isSet && !(ofBin.valid() && reach <= sphere.radius() + room);
+}
+
+void expandByChildren(osg::BoundingSphere& sphere, const osg::Group& group) {
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
+        const osg::Node& child = *group.getChild(i);
+        const osg::Transform* const transform = child.asTransform();
+        if (!transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF)
+            sphere.expandRadiusBy(child.getBound());
+    }
 }
 
 // The node with the bin of the tile that a watched node belongs to. Returns: nullptr where it belongs to none.
@@ -403,7 +430,8 @@ osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
     check(node);
     osg::BoundingSphere bound = boundOf(node);
     // about the middle that it has: levels of detail are chosen by the distance from there
-    bound.expandRadiusBy(scaledTerrainOf(node));
+    if (isScaledTerrain(node)) bound.expandRadiusBy(sphereOfBin(node));
+    if (mayBeTooSmall(bound, node)) expandByChildren(bound, *node.asGroup());
     return bound;
 }
 

@@ -22,7 +22,8 @@ namespace osgAnalyticBin {
 /// with what the bins of the ancestors were fitted to. If one of these bins does not contain new content, its tile is
 /// kept visible at once, and the database expands the bin in the next update traversal.
 /// The bound of a tile of osgTerrain with a vertical scale, which OSG leaves out of account, is expanded by the tile's
-/// bin, so that OSG's tests of spheres hold what is drawn.
+/// bin, so that OSG's tests of spheres hold what is drawn. So is a sphere that the application has set for a level of
+/// detail, by the spheres of what is loaded there.
 /// Every tile and every group between tiles has a watch, which checks the node's own children, down to the next node
 /// with a watch. It knows the meshes that the tile's bin was fitted to, and below which tile the node was then: what
 /// has come there since, be it from below another tile or from a file that was read for an earlier bin, is new content.
