@@ -52,6 +52,11 @@ TEST(Spheres, OfPagedLodsThatTheApplicationHasSetHoldWhatIsLoadedBelow) {
         tile.setRadius(2.0f * sphere.radius());
         tile.dirtyBound();
         EXPECT_EQ(tile.getBound().radius(), 2.0f * sphere.radius());
+        tile.setRadius(0.1f * sphere.radius());
+        tile.dirtyBound();
+        (void)tile.getBound();
+        removeBins(*globe.root);
+        EXPECT_EQ(tile.getBound().radius(), 0.1f * sphere.radius());
     }
 }
 

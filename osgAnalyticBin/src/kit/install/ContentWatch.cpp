@@ -418,6 +418,8 @@ ContentWatch::State ContentWatch::stateOf(const osg::Node& mesh) {
 void ContentWatch::remove(osg::Node& node) {
     if (const ContentWatch* const watch = watchOf(node)) {
         node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
+        // it may be larger than without the watch
+        node.dirtyBound();
     }
 }
 
