@@ -24,11 +24,9 @@ constexpr double kCornerTolerance = 1e-9;
 }  // namespace
 
 void FrustumHull::findCorners() noexcept {
-    for (std::size_t i = 0; i < _planeCount; ++i) {
-        for (std::size_t j = i + 1; j < _planeCount; ++j) {
+    for (std::size_t i = 0; i < _planeCount; ++i)
+        for (std::size_t j = i + 1; j < _planeCount; ++j)
             for (std::size_t k = j + 1; k < _planeCount; ++k) addCorner(i, j, k);
-        }
-    }
 }
 
 void FrustumHull::addCorner(std::size_t i, std::size_t j, std::size_t k) noexcept {
@@ -51,12 +49,10 @@ void FrustumHull::addCorner(std::size_t i, std::size_t j, std::size_t k) noexcep
 }
 
 bool FrustumHull::isBehind(const core::Plane& face, double reach) const noexcept {
-    for (std::size_t i = 0; i < _cornerCount; ++i) {
+    for (std::size_t i = 0; i < _cornerCount; ++i)
         if (!(face.distance(_corners[i].point) < 0.0)) return false;
-    }
-    for (std::size_t i = 0; i < _cornerCount; ++i) {
+    for (std::size_t i = 0; i < _cornerCount; ++i)
         if (proves(_corners[i], face, reach)) return true;
-    }
     return false;
 }
 
@@ -100,9 +96,8 @@ void ReverseBin::addFace(const core::ExactGeodeticBin& exact, const glm::dvec3& 
 
 bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept {
     if (frustum.cornerCount() == 0) return false;
-    for (std::size_t i = 0; i < bin.faceCount(); ++i) {
+    for (std::size_t i = 0; i < bin.faceCount(); ++i)
         if (frustum.isBehind(bin.face(i), bin.reach())) return true;
-    }
     return false;
 }
 

@@ -30,9 +30,8 @@ public:
     /// sound. `planes` is anything whose planes[i] gives a Plane, in any order.
     template <class Planes>
     FrustumHull(const Planes& planes, std::size_t count) noexcept {
-        for (std::size_t i = 0; i < count && i < kMostPlanes; ++i) {
+        for (std::size_t i = 0; i < count && i < kMostPlanes; ++i)
             if (core::isUsable(planes[i])) _planes[_planeCount++] = planes[i];
-        }
         findCorners();
     }
 

@@ -49,9 +49,8 @@ private:
 };
 
 osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
-    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
+    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback())
         if (auto* const cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback)) return cluster;
-    }
     return nullptr;
 }
 

@@ -47,9 +47,8 @@ public:
     void jumpTo(const flight::CameraPose& pose, double timeout) {
         const Turn turn(*this);
         const auto begin = Clock::now();
-        while (fly(pose)) {
+        while (fly(pose))
             if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
-        }
         const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin);
         add("complete_ms", static_cast<std::uint64_t>(passed.count()));
     }

@@ -84,22 +84,18 @@ std::string withExtension(const std::string& name, const std::string& extension)
 /// Throws Failure when OpenSceneGraph cannot write such files with bins in them, when there is no such folder, or when
 /// the file is there already and `overwrite` is not given.
 void requireCopyName(const std::string& rootFile, const std::string& sourceFile, bool overwrite) {
-    if (!fileTypeOf(osgDB::getLowerCaseFileExtension(rootFile))) {
+    if (!fileTypeOf(osgDB::getLowerCaseFileExtension(rootFile)))
         throw UsageError("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
-    }
     const std::string folder = osgDB::getFilePath(rootFile);
-    if (!folder.empty() && !fs::is_directory(folder)) {
+    if (!folder.empty() && !fs::is_directory(folder))
         throw Failure("no folder \"" + folder + "\" for the copy; create it first");
-    }
     std::error_code ignored;
-    if (fs::is_directory(rootFile, ignored)) {
+    if (fs::is_directory(rootFile, ignored))
         throw Failure("the output \"" + rootFile + "\" is a folder; name a file that ends in .osgb, .osgt or .osgx");
-    }
     // an interrupted copy, which the same command makes anew, leaves its marker
     if (!fs::exists(rootFile, ignored) || fs::exists(markerOf(rootFile), ignored)) return;
-    if (fs::weakly_canonical(rootFile, ignored) == fs::weakly_canonical(sourceFile, ignored)) {
+    if (fs::weakly_canonical(rootFile, ignored) == fs::weakly_canonical(sourceFile, ignored))
         throw Failure("\"" + rootFile + "\" is a file of the database itself; give another folder or extension");
-    }
     if (!overwrite) throw Failure("\"" + rootFile + "\" is there already; give --overwrite or another name");
 }
 
@@ -188,9 +184,8 @@ private:
             if (!names.insert(path).second)
                 throw Failure("two files would become \"" + path + "\"; rename one of them");
             if (!fs::exists(path, ignored)) continue;
-            if (originals.count(fs::weakly_canonical(path, ignored)) > 0) {
+            if (originals.count(fs::weakly_canonical(path, ignored)) > 0)
                 throw Failure("\"" + path + "\" is a file of the database itself; give another folder or extension");
-            }
             if (!overwrite) throw Failure("\"" + path + "\" is there already; give --overwrite or another name");
         }
     }
@@ -208,9 +203,8 @@ private:
 
 template <class Callback>
 Callback* callbackIn(osg::Callback* first) {
-    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
+    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback())
         if (auto* found = dynamic_cast<Callback*>(callback)) return found;
-    }
     return nullptr;
 }
 
@@ -223,9 +217,8 @@ public:
     }
 
     void apply(osg::Node& node) override {
-        while (osg::ref_ptr<osg::Callback> old = callbackIn<InstallBinsCallback>(node.getUpdateCallback())) {
+        while (osg::ref_ptr<osg::Callback> old = callbackIn<InstallBinsCallback>(node.getUpdateCallback()))
             node.removeUpdateCallback(old);
-        }
         while (!_keepClusters) {
             const osg::ref_ptr<osg::Callback> old = callbackIn<osg::ClusterCullingCallback>(node.getCullCallback());
             if (!old) break;
@@ -285,9 +278,8 @@ public:
     Copy(const DatabaseFiles& files, const MadeIndex& built, CopyTarget& target, const CopyOptions& options,
          bool isQuiet)
         : _files(files), _built(built), _target(target), _options(options), _progress("copied", isQuiet) {
-        for (const auto& [file, record] : built.records) {
+        for (const auto& [file, record] : built.records)
             if (record.isRead && !file.empty()) _waiting.push_back(&record);
-        }
     }
 
     /// The body of each thread.
@@ -352,10 +344,9 @@ void requireGlobe(const FileRecords& records, const DatabaseFiles& files) {
     for (const auto& [file, record] : records) {
         const bool isMap = std::any_of(record.tiles.begin(), record.tiles.end(),
                                        [](const TileRecord& tile) { return tile.surface.isInMap; });
-        if (isMap) {
+        if (isMap)
             throw Failure("\"" + files.rootFile() +
                           "\" is a map, whose bins cannot be stored with its tiles; make an index: osgbinconv --index");
-        }
     }
 }
 

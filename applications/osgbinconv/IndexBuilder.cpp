@@ -200,11 +200,10 @@ void writeIndex(const DatabaseFiles& files, const WalkOptions& options, bool kee
     const MadeIndex built = builtWith(part, files, options);
     std::string error;
     if (!built.index->write(name, error)) throw Failure(error);
-    if (keepsRecords) {
+    if (keepsRecords)
         part.keepOnly(built.records);
-    } else {
+    else
         part.remove();
-    }
 }
 
 }  // namespace osgbinconv

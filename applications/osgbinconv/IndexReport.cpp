@@ -64,9 +64,8 @@ struct Differences {
         for (const auto& [file, tiles] : expected.files()) {
             const std::vector<Entry>* others = found.tilesOf(file);
             std::size_t differing = others ? 0 : std::max<std::size_t>(tiles.size(), 1);
-            for (std::size_t i = 0; others && i < tiles.size(); ++i) {
+            for (std::size_t i = 0; others && i < tiles.size(); ++i)
                 if (i >= others->size() || !isSame(tiles[i], (*others)[i])) ++differing;
-            }
             if (differing > 0 && count == 0) firstFile = file;
             count += differing;
         }
@@ -109,9 +108,8 @@ void printIndex(const std::string& file) {
     if (!index && path == file && isDatabase) throw Failure(noIndexOf(file));
     if (!index) throw Failure(error);
     Statistics all;
-    for (const auto& [name, tiles] : index->files()) {
+    for (const auto& [name, tiles] : index->files())
         for (const Entry& entry : tiles) all.add(entry);
-    }
     const auto bytes = std::filesystem::file_size(path);
     std::printf("database     %s, %llu bytes\n", index->source().name.c_str(),
                 static_cast<unsigned long long>(index->source().size));
@@ -121,11 +119,10 @@ void printIndex(const std::string& file) {
         std::printf("heights      %.0f .. %.0f m in the finest tiles\n", all.finest.lower, all.finest.upper);
         std::printf("bins         %.0f .. %.0f m: coarse tiles are flat, and sag below the ground\n",
                     all.altitudes.lower, all.altitudes.upper);
-        if (const std::optional<bool> isMap = isOfMap(path, *index)) {
+        if (const std::optional<bool> isMap = isOfMap(path, *index))
             printWidths(all, *isMap);
-        } else {
+        else
             std::printf("widths       unknown without \"%s\" beside the index\n", index->source().name.c_str());
-        }
     }
     std::printf("size         %llu bytes, %.1f per tile\n", static_cast<unsigned long long>(bytes),
                 static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(all.tiles, 1)));
@@ -141,10 +138,9 @@ void checkIndex(const DatabaseFiles& files, const WalkOptions& options) {
     Differences differences;
     differences.compare(*built.index, *found);
     differences.compare(*found, *built.index);
-    if (differences.count > 0) {
+    if (differences.count > 0)
         throw Failure("\"" + name + "\" does not agree with its database, first in \"" +
                       files.pathOf(differences.firstFile) + "\"; make it again with osgbinconv --index");
-    }
     std::printf("%s agrees with its database: %zu tiles in %zu files\n", name.c_str(), found->tileCount(),
                 found->fileCount());
 }

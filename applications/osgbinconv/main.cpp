@@ -80,15 +80,13 @@ void requireSense(const Arguments& arguments) {
     if (arguments.keepsRecords && !arguments.isIndex) throw UsageError("--keep-records: is for --index");
     if (arguments.cluster != "remove" && arguments.cluster != "keep")
         throw UsageError("--cluster: " + arguments.cluster + " is neither remove nor keep");
-    if (commands == 0 && arguments.files.size() == 1) {
+    if (commands == 0 && arguments.files.size() == 1)
         throw UsageError("nothing to do with \"" + arguments.files.front() +
                          "\"; give --index, --print, --check or the root file of a copy");
-    }
     const std::size_t most = commands == 0 ? 2 : 1;
-    if (arguments.files.size() > most) {
+    if (arguments.files.size() > most)
         throw UsageError("one file too many on the command line, \"" + arguments.files[most] +
                          "\"; see osgbinconv --help");
-    }
 }
 
 void prepareProcess() {

@@ -191,10 +191,9 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path) {
     for (const CameraPose& pose : path) {
         ++number;
         out << (pose.name.empty() ? "flight" + std::to_string(number) : pose.name);
-        for (const core::Geodetic& point : {pose.eye, pose.look}) {
+        for (const core::Geodetic& point : {pose.eye, pose.look})
             out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
                 << point.altitude;
-        }
         out << ',' << pose.verticalFov * kDegreesPerRadian;
         if (havePlanes) out << ',' << pose.nearPlane << ',' << pose.farPlane;
         out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian << '\n';

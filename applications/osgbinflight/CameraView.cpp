@@ -23,9 +23,8 @@ public:
         if (!found) traverse(node);
     }
     void apply(osg::CoordinateSystemNode& node) override {
-        if (!found && node.getEllipsoidModel() && hasValidRadii(*node.getEllipsoidModel())) {
+        if (!found && node.getEllipsoidModel() && hasValidRadii(*node.getEllipsoidModel()))
             found = Globe{node.getEllipsoidModel(), osg::computeLocalToWorld(getNodePath())};
-        }
         apply(static_cast<osg::Node&>(node));
     }
 

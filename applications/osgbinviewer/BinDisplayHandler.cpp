@@ -36,10 +36,9 @@ osg::ref_ptr<osg::Node> makeNode(const SurveyedTile& tile, bool withQuadratic) {
     faces.a() = isEnd(tile) ? BinDisplayHandler::kOpacity : 0.0F;
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform(tile.ecefToWorld);
     node->addChild(makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Bin), faces, colour, isEnd(tile) ? 22 : 21));
-    if (withQuadratic) {
+    if (withQuadratic)
         node->addChild(
             makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Quadratic), osg::Vec4(), kQuadraticColour, 23));
-    }
     return node;
 }
 
@@ -75,18 +74,15 @@ void BinDisplayHandler::drawSlabs(const TileSurvey& survey) {
         if (!tile.hasBin || !tile.bin.valid() || !tile.ellipsoid || (_shown == Shown::Ends && !isEnd(tile))) continue;
         _slabs->addChild(slabOf(tile));
     }
-    for (auto slab = _known.begin(); slab != _known.end();) {
+    for (auto slab = _known.begin(); slab != _known.end();)
         slab = slab->second.isUsed ? std::next(slab) : _known.erase(slab);
-    }
 }
 
 void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera) {
     std::array<std::size_t, kVerdicts.size()> numbers{};
-    for (const SurveyedTile& tile : survey.tiles()) {
-        for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+    for (const SurveyedTile& tile : survey.tiles())
+        for (std::size_t i = 0; i < kVerdicts.size(); ++i)
             if (tile.hasBin && tile.verdict == kVerdicts[i]) ++numbers[i];
-        }
-    }
     const TileCounts counts = survey.counts();
     const bool hasBins = std::any_of(numbers.begin(), numbers.end(), [](std::size_t number) { return number > 0; });
     std::vector<TextPanel::Line> lines{{std::to_string(counts.tested) + " tiles tested, " +
@@ -94,9 +90,8 @@ void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera
                                             " drawn",
                                         kTextColour}};
     if (!hasBins) lines.push_back({"no bin decides", kTextColour});
-    for (std::size_t i = 0; hasBins && i < kVerdicts.size(); ++i) {
+    for (std::size_t i = 0; hasBins && i < kVerdicts.size(); ++i)
         lines.push_back({std::to_string(numbers[i]) + " " + verdictName(kVerdicts[i]), verdictColour(kVerdicts[i])});
-    }
     if (hasBins && _showsQuadratic) lines.push_back({"the quadratic approximation", kQuadraticColour});
     _legend->show(camera, lines);
 }

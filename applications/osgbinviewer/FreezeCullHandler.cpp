@@ -14,9 +14,8 @@ namespace {
 constexpr const char* kFrustumName = "frozen frustum";
 
 void removeFrustum(osg::Group& overlay) {
-    for (unsigned int i = overlay.getNumChildren(); i-- > 0;) {
+    for (unsigned int i = overlay.getNumChildren(); i-- > 0;)
         if (overlay.getChild(i)->getName() == kFrustumName) overlay.removeChildren(i, 1);
-    }
 }
 
 }  // namespace

@@ -51,9 +51,8 @@ std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     pose.time = time;
     double verticalFovDeg = 0.0;
     double aspect = 0.0;
-    if (!globe || !camera.getProjectionMatrixAsPerspective(verticalFovDeg, aspect, pose.nearPlane, pose.farPlane)) {
+    if (!globe || !camera.getProjectionMatrixAsPerspective(verticalFovDeg, aspect, pose.nearPlane, pose.farPlane))
         return std::nullopt;
-    }
     pose.verticalFov = osg::DegreesToRadians(verticalFovDeg);
     (void)drawnPlanes(camera, pose.nearPlane, pose.farPlane);
     osg::Vec3d eye;

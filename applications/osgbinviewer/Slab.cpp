@@ -61,9 +61,8 @@ void addFace(const Surface& surface, const std::array<int, 3>& steps, int fixed,
             const unsigned int at = first + j * width + i;
             const unsigned int right = side > 0.0 ? at + width : at + 1;
             const unsigned int left = side > 0.0 ? at + 1 : at + width;
-            for (const unsigned int index : {at, right, at + width + 1, at, at + width + 1, left}) {
+            for (const unsigned int index : {at, right, at + width + 1, at, at + width + 1, left})
                 mesh.triangles.push_back(index);
-            }
         }
     }
     for (const unsigned int row : {first, first + static_cast<unsigned int>(rows) * width})

@@ -94,9 +94,8 @@ private:
         double distance = 0.0;
         char comma = 0;
         std::istringstream in(numbers);
-        if (!(in >> azimuth >> comma >> elevation >> comma >> distance)) {
+        if (!(in >> azimuth >> comma >> elevation >> comma >> distance))
             throw support::UsageError("--steps: spy takes AZIMUTH,ELEVATION,DISTANCE, not \"" + numbers + "\"");
-        }
         _spy.setOrbit(osg::DegreesToRadians(azimuth), osg::DegreesToRadians(elevation), distance);
         drawUntilIdle();
     }
@@ -107,9 +106,8 @@ private:
             _viewer.frame();
             const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();
             idle = pager.getRequestsInProgress() || pager.requiresUpdateSceneGraph() ? 0 : idle + 1;
-            if (osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick()) > kLongestWait) {
+            if (osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick()) > kLongestWait)
                 throw std::runtime_error("--steps: pages are still missing after two minutes; look for missing files");
-            }
         }
     }
 
@@ -127,9 +125,8 @@ private:
         const osg::ref_ptr<osg::Image> picture = capture->take();
         if (!picture) throw std::runtime_error("--steps: a picture was never drawn");
         const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 86");
-        if (!osgDB::writeImageFile(*picture, fileName, options)) {
+        if (!osgDB::writeImageFile(*picture, fileName, options))
             throw std::runtime_error("--steps: " + fileName + " cannot be written");
-        }
     }
 
     osgViewer::Viewer& _viewer;

@@ -35,9 +35,8 @@ osg::ref_ptr<osg::Geometry> makeBackground(float left, float bottom, float width
     osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
     quad->setUseVertexBufferObjects(true);
     const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
-    for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {width, 0.0F}, {width, height}, {0.0F, height}}) {
+    for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {width, 0.0F}, {width, height}, {0.0F, height}})
         corners->push_back(osg::Vec3(left + x, bottom + y, -0.5F));
-    }
     quad->setVertexArray(corners);
     const osg::ref_ptr<osg::Vec4Array> colour = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
     (*colour)[0].set(0.0F, 0.0F, 0.1F, 0.75F);

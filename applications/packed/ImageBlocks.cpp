@@ -92,9 +92,8 @@ osg::ref_ptr<osg::Image> inBlocks(const osg::Image& image) {
     const osg::ref_ptr<osg::Image> blocks = new osg::Image;
     blocks->allocateImage(image.s(), image.t(), 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE, 1);
     unsigned char* target = blocks->data();
-    for (int row = 0; row < image.t(); row += 4) {
+    for (int row = 0; row < image.t(); row += 4)
         for (int column = 0; column < image.s(); column += 4, target += 8) store(blockAt(image, column, row), target);
-    }
     return blocks;
 }
 

@@ -83,9 +83,7 @@ private:
 std::int64_t foretold(const std::vector<std::int32_t>& heights, std::size_t width, std::size_t i) {
     const bool hasWest = i % width != 0;
     const bool hasSouth = i >= width;
-    if (hasWest && hasSouth) {
-        return std::int64_t{heights[i - 1]} + heights[i - width] - heights[i - width - 1];
-    }
+    if (hasWest && hasSouth) return std::int64_t{heights[i - 1]} + heights[i - width] - heights[i - width - 1];
     return hasWest ? heights[i - 1] : hasSouth ? heights[i - width] : 0;
 }
 
@@ -162,9 +160,8 @@ std::string packed(const TerrainGrid& grid) {
     Writer writer;
     writeHead(writer, grid);
     const auto width = static_cast<std::size_t>(grid.cells + 3);
-    for (std::size_t i = 0; i < grid.heights.size(); ++i) {
+    for (std::size_t i = 0; i < grid.heights.size(); ++i)
         writer.whole(grid.heights[i] - foretold(grid.heights, width, i));
-    }
     for (const TerrainGrid::Skirt& skirt : grid.skirts) {
         write(writer, skirt.depth);
         write(writer, skirt.lean);

@@ -154,10 +154,9 @@ void print(std::ostream& output, const std::vector<Flight>& flights) {
     std::vector<std::string> titles{"pose", "method"};
     for (const Column& column : kColumns) titles.emplace_back(column.title);
     table.add(std::move(titles));
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t i = 0; i < poses.size(); ++i)
         for (const Flight& flight : flights)
             addLine(table, &flight == &flights.front() ? poses[i] : "", flight.figures.method, flight.figures.rows[i]);
-    }
     for (const PathGroup& group : pathGroupsOf(poses))
         if (group.poses.size() > 1) addSums(table, "sum of " + group.name + "_*", flights, group);
     addSums(table, "sum of all poses", flights, allOf(flights.front().figures));

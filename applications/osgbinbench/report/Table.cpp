@@ -26,10 +26,9 @@ std::vector<std::size_t> widthsOf(const std::vector<std::vector<std::string>>& l
 
 std::vector<std::string> columnsOf(const std::vector<Json>& rows) {
     std::vector<std::string> columns;
-    for (const Json& row : rows) {
+    for (const Json& row : rows)
         for (const auto& item : row.items())
             if (std::find(columns.begin(), columns.end(), item.key()) == columns.end()) columns.push_back(item.key());
-    }
     return columns;
 }
 

@@ -113,9 +113,8 @@ OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::Geo
 
 bool isSeparated(const Box& box, const FrustumHull& frustum) noexcept {
     if (frustum.cornerCount() == 0) return false;
-    for (std::size_t i = 0; i < Box::kFaces; ++i) {
+    for (std::size_t i = 0; i < Box::kFaces; ++i)
         if (frustum.isBehind(box.face(i), box.reach())) return true;
-    }
     return false;
 }
 

@@ -125,11 +125,10 @@ core::Side RivalCullCallback::test(osg::NodeVisitor& visitor, osg::CullStack& cu
     const osg::Polytope::PlaneList& list = cullStack.getCurrentCullingSet().getFrustum().getPlaneList();
     thread_local Frustum frustum;
     core::PlaneSet own;
-    if (_isInEcef) {
+    if (_isInEcef)
         frustum.set(list);
-    } else {
+    else
         own = Frustum::planesOf(list, &_fromEcef);
-    }
     const core::PlaneSet& planes = _isInEcef ? frustum.planes() : own;
     const core::Side side = std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _bin);
     if (side == core::Side::Outside || isHidden(visitor)) return core::Side::Outside;

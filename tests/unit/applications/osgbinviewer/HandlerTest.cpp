@@ -50,9 +50,8 @@ protected:
         _spy = new SpyViewHandler;
         _stats = new osgViewer::StatsHandler;
         for (osgGA::GUIEventHandler* handler : std::initializer_list<osgGA::GUIEventHandler*>{
-                 _methods, _freeze, _bins, _spy, new BinStatsHandler(*_stats), _stats}) {
+                 _methods, _freeze, _bins, _spy, new BinStatsHandler(*_stats), _stats})
             _viewer.addEventHandler(handler);
-        }
     }
 
     // A group above the database. Returns: it.
