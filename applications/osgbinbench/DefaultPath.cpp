@@ -4,13 +4,10 @@
 #include "DefaultPath.h"
 
 #include "ClusterCallbacks.h"
-#include "GlmBridge.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
 #include <osg/Math>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +85,7 @@ public:
     }
 
 private:
-    [[nodiscard]] core::Ellipsoid ellipsoid() const { return toCore(*_scene.globe().ellipsoid); }
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return _scene.globe().radii(); }
 
     void lookDown(const Geodetic& at, double height) {
         Geodetic eye = at;
@@ -114,24 +111,14 @@ private:
         }
     }
 
-    [[nodiscard]] osg::Vec3d toWorld(const Geodetic& at) const {
-        const glm::dvec3 ecef = ellipsoid().toEcef(at);
-        return osg::Vec3d(ecef.x, ecef.y, ecef.z) * _scene.globe().localToWorld;
-    }
-
     [[nodiscard]] std::optional<double> groundAt(const Geodetic& at) {
         const double depth = _whole.altitude().width() + depthOf(_highest);
         Geodetic high = at, low = at;
         high.altitude += depth;
         low.altitude -= depth;
-        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
-            new osgUtil::LineSegmentIntersector(toWorld(high), toWorld(low));
-        osgUtil::IntersectionVisitor visitor(line);
-        _scene.root().accept(visitor);
-        if (!line->containsIntersections()) return std::nullopt;
-        const osg::Vec3d hit =
-            line->getFirstIntersection().getWorldIntersectPoint() * osg::Matrixd::inverse(_scene.globe().localToWorld);
-        return ellipsoid().toGeodetic({hit.x(), hit.y(), hit.z()}).altitude;
+        const flight::Globe& globe = _scene.globe();
+        const auto hit = flight::firstHit(_scene.root(), globe.toWorld(high), globe.toWorld(low));
+        return hit ? std::optional(globe.geodetic(*hit).altitude) : std::nullopt;
     }
 
     MethodScene _scene;

@@ -4,7 +4,6 @@
 #include "TileTruth.h"
 
 #include "FrustumHull.h"
-#include "GlmBridge.h"
 
 #include <osgAnalyticBin/TileSurface.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
@@ -160,7 +159,7 @@ const AnalyticBin& TileTruth::surfaceOf(const flight::DrawnTile& tile, const fli
 
 NeededTiles TileTruth::neededTiles(const std::vector<flight::DrawnTile>& tiles, const osg::Camera& view,
                                    const flight::Globe& globe) {
-    const core::Ellipsoid ellipsoid = toCore(*globe.ellipsoid);
+    const core::Ellipsoid ellipsoid = globe.radii();
     std::vector<core::GeodeticBin> surfaces;
     for (const flight::DrawnTile& tile : tiles)
         if (const AnalyticBin& surface = surfaceOf(tile, globe); surface.valid()) surfaces.push_back(surface.bin());

@@ -6,9 +6,10 @@
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <osg/Transform>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/LineSegmentIntersector>
 
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::flight {
@@ -33,20 +34,6 @@ public:
 
 // Sine of the angle to the vertical below which the horizon has no "up": 0.006 degrees.
 constexpr double kStraight = 1e-4;
-
-core::Ellipsoid ellipsoidOf(const Globe& globe) {
-    return {globe.ellipsoid->getRadiusEquator(), globe.ellipsoid->getRadiusPolar()};
-}
-
-osg::Vec3d toWorld(const core::Geodetic& position, const Globe& globe) {
-    const glm::dvec3 ecef = ellipsoidOf(globe).toEcef(position);
-    return osg::Vec3d(ecef.x, ecef.y, ecef.z) * globe.localToWorld;
-}
-
-osg::Vec3d verticalAt(const core::Geodetic& p, const Globe& globe) {
-    const glm::dvec3 up = ellipsoidOf(globe).up(p.latitude, p.longitude);
-    return {up.x, up.y, up.z};
-}
 
 osg::Vec3d northAt(const core::Geodetic& p, const Globe& globe) {
     if (isMapPlane(*globe.ellipsoid)) return {0.0, 1.0, 0.0};
@@ -74,6 +61,41 @@ osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
 
 }  // namespace
 
+osg::Vec3d Globe::toWorld(const core::Geodetic& position) const {
+    return toOsg(radii().toEcef(position)) * localToWorld;
+}
+
+core::Geodetic Globe::geodetic(const osg::Vec3d& world) const {
+    return radii().toGeodetic(toGlm(world * osg::Matrixd::inverse(localToWorld)));
+}
+
+osg::Vec3d Globe::vertical(const core::Geodetic& position) const {
+    return directionToWorld(toOsg(radii().up(position.latitude, position.longitude)), *this);
+}
+
+std::optional<osg::Vec3d> Globe::intersection(const osg::Vec3d& eye, const osg::Vec3d& direction) const {
+    const osg::Matrixd toGlobe = osg::Matrixd::inverse(localToWorld);
+    const double a = ellipsoid->getRadiusEquator();
+    const double b = ellipsoid->getRadiusPolar();
+    const auto toUnit = [&](const osg::Vec3d& v) { return osg::Vec3d(v.x() / a, v.y() / a, v.z() / b); };
+    const osg::Vec3d start = toUnit(eye * toGlobe);
+    const osg::Vec3d along = toUnit(osg::Matrixd::transform3x3(direction, toGlobe));
+    const double half = start * along;
+    const double discriminant = half * half - along.length2() * (start.length2() - 1.0);
+    if (!(discriminant >= 0.0)) return std::nullopt;
+    const double distance = (-half - std::sqrt(discriminant)) / along.length2();
+    if (!(distance > 0.0)) return std::nullopt;
+    return eye + direction * distance;
+}
+
+std::optional<osg::Vec3d> firstHit(osg::Node& scene, const osg::Vec3d& from, const osg::Vec3d& to) {
+    const osg::ref_ptr<osgUtil::LineSegmentIntersector> line = new osgUtil::LineSegmentIntersector(from, to);
+    osgUtil::IntersectionVisitor visitor(line);
+    scene.accept(visitor);
+    if (!line->containsIntersections()) return std::nullopt;
+    return line->getFirstIntersection().getWorldIntersectPoint();
+}
+
 std::optional<Globe> findGlobe(osg::Node& scene) {
     GlobeFinder finder;
     scene.accept(finder);
@@ -87,14 +109,14 @@ Globe globeOf(osg::Node& scene) {
 }
 
 osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye, const osg::Vec3d& sight) {
-    const osg::Vec3d vertical = directionToWorld(verticalAt(eye, globe), globe);
+    const osg::Vec3d vertical = globe.vertical(eye);
     const bool isStraight = (sight ^ vertical).length() < kStraight;
     return isStraight ? directionToWorld(northAt(eye, globe), globe) : vertical;
 }
 
 osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
-    const osg::Vec3d eye = toWorld(pose.eye, globe);
-    const osg::Vec3d look = toWorld(pose.look, globe);
+    const osg::Vec3d eye = globe.toWorld(pose.eye);
+    const osg::Vec3d look = globe.toWorld(pose.look);
     osg::Vec3d direction = look - eye;
     direction.normalize();
     const osg::Vec3d up = upWithoutRoll(globe, pose.eye, direction);
@@ -107,7 +129,7 @@ osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, doub
     constexpr double kNear = 1.0, kFar = 1e8;  // until OSG computes them
     const double nearPlane = pose.hasPlanes() ? pose.nearPlane : kNear,
                  farPlane = pose.hasPlanes() ? pose.farPlane : kFar;
-    const double lookDistance = (toWorld(pose.look, globe) - toWorld(pose.eye, globe)).length();
+    const double lookDistance = (globe.toWorld(pose.look) - globe.toWorld(pose.eye)).length();
     const double top = nearPlane * std::tan(pose.verticalFov / 2.0);
     const double right = top * aspect;
     const double aside = pose.eyeRight * nearPlane / lookDistance;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "CameraPath.h"
+#include "GlmBridge.h"
 
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
@@ -17,7 +18,18 @@ namespace osgAnalyticBin::flight {
 struct Globe {
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< its radii
     osg::Matrixd localToWorld;                          ///< from ECEF, or the map, to the world
+
+    [[nodiscard]] core::Ellipsoid radii() const { return toCore(*ellipsoid); }
+    [[nodiscard]] osg::Vec3d toWorld(const core::Geodetic& position) const;
+    [[nodiscard]] core::Geodetic geodetic(const osg::Vec3d& world) const;
+    /// The local vertical of a position, of unit length. Frame: the world's.
+    [[nodiscard]] osg::Vec3d vertical(const core::Geodetic& position) const;
+    /// Where a ray from the eye meets the ellipsoid first. Frame: the world's.
+    [[nodiscard]] std::optional<osg::Vec3d> intersection(const osg::Vec3d& eye, const osg::Vec3d& direction) const;
 };
+
+/// Where a line first meets what is loaded of a scene. Frame: the world's.
+[[nodiscard]] std::optional<osg::Vec3d> firstHit(osg::Node& scene, const osg::Vec3d& from, const osg::Vec3d& to);
 
 /// The globe of the first CoordinateSystemNode with an ellipsoid. Returns: nullopt for scenes without.
 [[nodiscard]] std::optional<Globe> findGlobe(osg::Node& scene);

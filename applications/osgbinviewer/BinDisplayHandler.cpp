@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BinDisplayHandler.h"
-
+#include "Handlers.h"
 #include "Slab.h"
-#include "TextPanel.h"
 #include "ViewTools.h"
-
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osg/MatrixTransform>
 
@@ -44,7 +40,7 @@ osg::ref_ptr<osg::Node> makeNode(const SurveyedTile& tile, bool withQuadratic) {
 
 }  // namespace
 
-BinDisplayHandler::BinDisplayHandler() : _slabs(new osg::Group), _legend(new TextPanel(TextPanel::Corner::BottomLeft)) {
+BinDisplayHandler::BinDisplayHandler() {
     addKey('B', "Show bins by verdict: where culling ends, all, none.", [this](osgViewer::View&) {
         _shown = _shown == Shown::Nothing ? Shown::Ends : _shown == Shown::Ends ? Shown::All : Shown::Nothing;
     });
@@ -53,7 +49,6 @@ BinDisplayHandler::BinDisplayHandler() : _slabs(new osg::Group), _legend(new Tex
         if (_shown == Shown::Nothing) _shown = Shown::Ends;
     });
 }
-BinDisplayHandler::~BinDisplayHandler() = default;
 
 osg::Node* BinDisplayHandler::slabOf(const SurveyedTile& tile) {
     Slab& slab = _known[tile.node];

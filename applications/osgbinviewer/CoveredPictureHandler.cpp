@@ -1,13 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CoveredPictureHandler.h"
-
-#include "TextPanel.h"
+#include "Handlers.h"
 #include "ViewTools.h"
-
-#include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <algorithm>
 #include <string>
@@ -57,12 +52,10 @@ osg::ref_ptr<osg::Node> makeCurtain(const CoveredPicture& picture, const osg::Ma
 
 }  // namespace
 
-CoveredPictureHandler::CoveredPictureHandler()
-    : _curtain(new osg::Group), _panel(new TextPanel(TextPanel::Corner::TopRight)) {
+CoveredPictureHandler::CoveredPictureHandler() {
     addKey('O', "Show what of the picture terrain covers: tiles behind it are culled.",
            [this](osgViewer::View&) { _isShown = !_isShown; });
 }
-CoveredPictureHandler::~CoveredPictureHandler() = default;
 
 void CoveredPictureHandler::draw(osgViewer::View& view, osg::Camera& camera) {
     osg::Group& overlay = CameraCulling::of(camera).overlay();

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "FreezeCullHandler.h"
-
+#include "Handlers.h"
 #include "ViewTools.h"
-
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 
 namespace osgAnalyticBin::viewer {
 
@@ -24,7 +21,6 @@ FreezeCullHandler::FreezeCullHandler() {
     addKey('F', "Freeze the culling camera, to fly round what it draws.",
            [this](osgViewer::View& view) { setFrozen(view, !_isFrozen); });
 }
-FreezeCullHandler::~FreezeCullHandler() = default;
 
 void FreezeCullHandler::setFrozen(osgViewer::View& view, bool frozen) {
     _isFrozen = frozen;

@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "MethodSwitchHandler.h"
-
-#include "TextPanel.h"
+#include "Handlers.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <array>
 #include <string>
@@ -43,14 +40,12 @@ TextPanel::Line changeLine(const std::string& what, std::size_t before, std::siz
 }  // namespace
 
 MethodSwitchHandler::MethodSwitchHandler(const CullOptions& options)
-    : _options(options), _methodBefore(options.method), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {
+    : _options(options), _methodBefore(options.method) {
     addKey('n', "Next culling method, and its change in tiles.",
            [this](osgViewer::View& view) { setMethod(view, neighbour(_options.method, 1)); });
     addKey('N', "Previous culling method.",
            [this](osgViewer::View& view) { setMethod(view, neighbour(_options.method, kMethods.size() - 1)); });
 }
-
-MethodSwitchHandler::~MethodSwitchHandler() = default;
 
 void MethodSwitchHandler::setMethod(osgViewer::View& view, Method method) {
     const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(view);

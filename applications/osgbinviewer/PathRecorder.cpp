@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "PathRecorder.h"
-
+#include "CameraView.h"
 #include "Failure.h"
-#include "ViewTools.h"
+#include "Handlers.h"
 
 #include <osg/Notify>
 #include <osgUtil/CullVisitor>
@@ -61,12 +60,11 @@ std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     camera.getViewMatrixAsLookAt(eye, center, up);
     osg::Vec3d sight = center - eye;
     sight.normalize();
-    const auto ground = intersection(*globe, eye, sight);
+    const auto ground = globe->intersection(eye, sight);
     constexpr double kShortestSight = 100.0;
-    const double distance = std::max(kShortestSight, std::abs(geodetic(*globe, eye).altitude));
-    pose.eye = geodetic(*globe, eye);
-    pose.look =
-        geodetic(*globe, ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
+    pose.eye = globe->geodetic(eye);
+    const double distance = std::max(kShortestSight, std::abs(pose.eye.altitude));
+    pose.look = globe->geodetic(ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
     if (pose.eye.altitude < kLowestAltitude || pose.look.altitude < kLowestAltitude) return std::nullopt;
     pose.roll = rollOf(sight, up, flight::upWithoutRoll(*globe, pose.eye, sight));
     return pose;

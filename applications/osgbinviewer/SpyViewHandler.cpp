@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "SpyViewHandler.h"
-
+#include "Handlers.h"
 #include "ViewTools.h"
-
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osg/Notify>
 #include <osgViewer/ViewerBase>
@@ -109,7 +106,7 @@ private:
         const osg::Vec3d sight = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), toWorld);
         const osg::Vec3d target = targetOf(eye, sight, scene);
         const osg::Vec3d center = eye * 0.4 + target * 0.6;
-        osg::Vec3d up = globe ? vertical(*globe, center) : osg::Vec3d(0.0, 0.0, 1.0);
+        osg::Vec3d up = globe ? globe->vertical(globe->geodetic(center)) : osg::Vec3d(0.0, 0.0, 1.0);
         osg::Vec3d forward = sight - up * (sight * up);
         if (forward.normalize() < 1e-3) {
             forward = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), toWorld);
@@ -125,9 +122,9 @@ private:
     // What the camera looks at: on the globe, else as far as its horizon.
     [[nodiscard]] osg::Vec3d targetOf(const osg::Vec3d& eye, const osg::Vec3d& sight, const osg::Node& scene) const {
         if (!globe) return eye + sight * std::max(1.0, (osg::Vec3d(scene.getBound().center()) - eye).length());
-        if (const auto ground = intersection(*globe, eye, sight)) return *ground;
+        if (const auto ground = globe->intersection(eye, sight)) return *ground;
         const double radius = globe->ellipsoid->getRadiusEquator();
-        const double height = std::max(geodetic(*globe, eye).altitude, 1.0);
+        const double height = std::max(globe->geodetic(eye).altitude, 1.0);
         return eye + sight * std::sqrt(height * (2.0 * radius + height));
     }
 };

@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "CameraPath.h"
-#include "SpyViewHandler.h"
+#include "Handlers.h"
 
 #include <osgViewer/Viewer>
 

@@ -62,8 +62,6 @@ TextPanel::TextPanel(Corner corner) : _corner(corner), _hud(new osg::Camera) {
     state.setRenderBinDetails(kLast, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
 }
 
-TextPanel::~TextPanel() = default;
-
 // It stays in the overlay, to be found when a window closes.
 void TextPanel::hide() {
     _hud->setNodeMask(0);

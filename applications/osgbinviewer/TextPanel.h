@@ -32,9 +32,6 @@ public:
 
     [[nodiscard]] bool isShown() const { return _hud->getNodeMask() != 0; }
 
-protected:
-    ~TextPanel() override;
-
 private:
     const Corner _corner;
     const osg::ref_ptr<osg::Camera> _hud;

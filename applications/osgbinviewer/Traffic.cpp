@@ -4,8 +4,6 @@
 #include "Traffic.h"
 
 #include "CameraView.h"
-#include "TextPanel.h"
-#include "ViewTools.h"
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
@@ -16,12 +14,9 @@
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
 #include <osgDB/DatabasePager>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <string>
 
@@ -43,6 +38,7 @@ namespace {
 
 constexpr double kHighestModel = 300.0;  // metres above ground
 constexpr double kFarthest = 30e3;       // metres, of models about the camera
+constexpr double kReach = 2e4;           // metres up and down, where ground is looked for
 
 // An aircraft, some 30 m long, that flies to the north: a few hundred triangles.
 osg::ref_ptr<osg::Geode> makeAircraft() {
@@ -61,17 +57,6 @@ osg::ref_ptr<osg::Geode> makeAircraft() {
     return geode;
 }
 
-// Where the vertical at a place on the ellipsoid meets the loaded terrain.
-std::optional<osg::Vec3d> groundAt(osg::Node& scene, const osg::Vec3d& place, const osg::Vec3d& up) {
-    constexpr double kReach = 2e4;  // metres
-    const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
-        new osgUtil::LineSegmentIntersector(place + up * kReach, place - up * kReach);
-    osgUtil::IntersectionVisitor visitor(line);
-    scene.accept(visitor);
-    if (!line->containsIntersections()) return std::nullopt;
-    return line->getFirstIntersection().getWorldIntersectPoint();
-}
-
 }  // namespace
 
 Traffic::Traffic(unsigned int count) : _count(count) {}
@@ -82,7 +67,7 @@ void Traffic::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
     _models->removeChildren(0, _models->getNumChildren());
     std::mt19937 random(1);
     std::uniform_real_distribution<double> share(0.0, 1.0);
-    const osg::Vec3d up = vertical(globe, eye);
+    const osg::Vec3d up = globe.vertical(globe.geodetic(eye));
     osg::Vec3d east = osg::Vec3d(0.0, 0.0, 1.0) ^ up;
     if (east.normalize() < 1e-6) east.set(1.0, 0.0, 0.0);
     const osg::Vec3d north = up ^ east;
@@ -91,9 +76,12 @@ void Traffic::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
         const double height = std::max(0.0, kHighestModel * (1.5 * share(random) - 0.5)),
                      heading = 2.0 * osg::PI * share(random);
         const osg::Vec3d place = eye + (east * std::sin(bearing) + north * std::cos(bearing)) * distance;
-        const osg::Vec3d upThere = vertical(globe, place);
-        const auto ground = groundAt(scene, place - upThere * geodetic(globe, place).altitude, upThere);
+        core::Geodetic high = globe.geodetic(place), low = high;
+        high.altitude = kReach;
+        low.altitude = -kReach;
+        const auto ground = flight::firstHit(scene, globe.toWorld(high), globe.toWorld(low));
         if (!ground) continue;
+        const osg::Vec3d upThere = globe.vertical(high);
         osg::Matrixd turn = osg::Matrixd::rotate(heading, osg::Vec3d(0.0, 0.0, 1.0));
         turn.postMult(osg::Matrixd::rotate(osg::Vec3d(0.0, 0.0, 1.0), upThere));
         turn.postMultTranslate(*ground + upThere * height);
@@ -114,8 +102,7 @@ void Traffic::setAsking(bool asks) {
     }
 }
 
-TrafficHandler::TrafficHandler(osg::Group& scene, unsigned int count)
-    : _traffic(count), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {
+TrafficHandler::TrafficHandler(osg::Group& scene, unsigned int count) : _traffic(count) {
     scene.addChild(&_traffic.models());
     addKey('T', "Scatter the models of --traffic about the camera.", [this](osgViewer::View&) { _isDue = true; });
     addKey('G', "Let terrain hide the models of --traffic, or not.", [this](osgViewer::View&) {
@@ -123,7 +110,6 @@ TrafficHandler::TrafficHandler(osg::Group& scene, unsigned int count)
         _traffic.setAsking(_asks);
     });
 }
-TrafficHandler::~TrafficHandler() = default;
 
 void TrafficHandler::draw(osgViewer::View& view, osg::Camera& camera) {
     const osgDB::DatabasePager* const pager = view.getDatabasePager();

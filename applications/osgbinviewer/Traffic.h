@@ -3,17 +3,11 @@
 
 #pragma once
 
-#include "KeyHandler.h"
-
-#include <osg/Group>
-#include <osg/Vec3d>
-#include <osg/ref_ptr>
+#include "Handlers.h"
 
 #include <atomic>
 
 namespace osgAnalyticBin::viewer {
-
-class TextPanel;
 
 /// Models that stand on terrain or fly up to 300 m above it, each with a HiddenByTerrainCallback.
 class Traffic {
@@ -54,14 +48,13 @@ public:
     TrafficHandler(osg::Group& scene, unsigned int count);
 
 protected:
-    ~TrafficHandler() override;
     void draw(osgViewer::View& view, osg::Camera& camera) override;
 
 private:
     Traffic _traffic;
     bool _isDue = true;
     bool _asks = true;
-    const osg::ref_ptr<TextPanel> _panel;
+    const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::BottomRight);
 };
 
 }  // namespace osgAnalyticBin::viewer

@@ -50,7 +50,7 @@ std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<fl
             const double y = kCorners[side][1] * (1.0 - t) + kCorners[side + 1][1] * t;
             osg::Vec3d direction = osg::Vec3d(x, y, 0.0) * toWorld - eye;
             direction.normalize();
-            const auto ground = globe ? intersection(*globe, eye, direction) : std::nullopt;
+            const auto ground = globe ? globe->intersection(eye, direction) : std::nullopt;
             border.push_back(ground ? *ground : eye + direction * reach);
         }
     }
@@ -60,7 +60,7 @@ std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<fl
 // The distance to the tangent point on the globe, and a little more.
 double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
     const double radius = globe.ellipsoid->getRadiusEquator();
-    const double height = std::max(geodetic(globe, eye).altitude, 0.0);
+    const double height = std::max(globe.geodetic(eye).altitude, 0.0);
     return 1.15 * std::sqrt(height * (2.0 * radius + height));
 }
 
@@ -69,37 +69,6 @@ double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
 void computeBounds(osg::Node& node) {
     BoundsComputer computer;
     node.accept(computer);
-}
-
-std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye, const osg::Vec3d& direction) {
-    const osg::Matrixd toGlobe = osg::Matrixd::inverse(globe.localToWorld);
-    const double a = globe.ellipsoid->getRadiusEquator();
-    const double b = globe.ellipsoid->getRadiusPolar();
-    const auto toUnit = [&](const osg::Vec3d& v) { return osg::Vec3d(v.x() / a, v.y() / a, v.z() / b); };
-    const osg::Vec3d start = toUnit(eye * toGlobe);
-    const osg::Vec3d along = toUnit(osg::Matrixd::transform3x3(direction, toGlobe));
-    const double half = start * along;
-    const double discriminant = half * half - along.length2() * (start.length2() - 1.0);
-    if (!(discriminant >= 0.0)) return std::nullopt;
-    const double distance = (-half - std::sqrt(discriminant)) / along.length2();
-    if (!(distance > 0.0)) return std::nullopt;
-    return eye + direction * distance;
-}
-
-osg::Vec3d vertical(const flight::Globe& globe, const osg::Vec3d& position) {
-    const osg::Vec3d ecef = position * osg::Matrixd::inverse(globe.localToWorld);
-    osg::Vec3d up = osg::Matrixd::transform3x3(globe.ellipsoid->computeLocalUpVector(ecef.x(), ecef.y(), ecef.z()),
-                                               globe.localToWorld);
-    up.normalize();
-    return up;
-}
-
-core::Geodetic geodetic(const flight::Globe& globe, const osg::Vec3d& position) {
-    const osg::Vec3d ecef = position * osg::Matrixd::inverse(globe.localToWorld);
-    core::Geodetic found{};
-    globe.ellipsoid->convertXYZToLatLongHeight(ecef.x(), ecef.y(), ecef.z(), found.latitude, found.longitude,
-                                               found.altitude);
-    return found;
 }
 
 HomeView homeViewOf(osg::Node& scene, const osg::Matrixd& projection) {

@@ -20,16 +20,6 @@
 
 namespace osgAnalyticBin::viewer {
 
-/// Where a ray from the eye meets a globe's ellipsoid first. Frame: the world's.
-[[nodiscard]] std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye,
-                                                     const osg::Vec3d& direction);
-
-/// The local vertical of a position, of unit length. Frame: the world's.
-[[nodiscard]] osg::Vec3d vertical(const flight::Globe& globe, const osg::Vec3d& position);
-
-/// A position of the world on a globe.
-[[nodiscard]] core::Geodetic geodetic(const flight::Globe& globe, const osg::Vec3d& position);
-
 /// Computes the bounds of everything below a node, hidden or not. OSG does so on first use, which for an overlay that
 /// two cameras draw happens in two cull threads at once. Call between frames.
 void computeBounds(osg::Node& node);

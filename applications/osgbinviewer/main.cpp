@@ -1,15 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BinDisplayHandler.h"
-#include "CoveredPictureHandler.h"
-#include "FreezeCullHandler.h"
-#include "MethodSwitchHandler.h"
+#include "Handlers.h"
 #include "ModuleFolder.h"
-#include "PathRecorder.h"
 #include "ProgramRun.h"
 #include "Settings.h"
-#include "SpyViewHandler.h"
 #include "Steps.h"
 #include "Traffic.h"
 #include "ViewTools.h"

@@ -5,11 +5,8 @@
 // DatabasePager. Built with the thread sanitizer (preset tsan) this fails on data races; without, on crashes, hangs and
 // tiles that never come. Needs a display; skipped where no graphics context can be made.
 
-#include "BinDisplayHandler.h"
-#include "FreezeCullHandler.h"
-#include "MethodSwitchHandler.h"
+#include "Handlers.h"
 #include "PagedScenes.h"
-#include "SpyViewHandler.h"
 #include "ViewerRig.h"
 
 #include <osgAnalyticBin/BinStatistics.h>

@@ -5,14 +5,9 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
-#include "BinDisplayHandler.h"
-#include "CoveredPictureHandler.h"
 #include "CsvTable.h"
 #include "DrawnViewer.h"
-#include "FreezeCullHandler.h"
-#include "MethodSwitchHandler.h"
-#include "PathRecorder.h"
-#include "SpyViewHandler.h"
+#include "Handlers.h"
 #include "Traffic.h"
 #include "ViewTools.h"
 #include "ViewerScene.h"

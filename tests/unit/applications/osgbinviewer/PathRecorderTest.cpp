@@ -3,9 +3,8 @@
 //
 // Recorded camera paths. Oracle: what osgbinbench makes of them.
 
-#include "CameraPath.h"
 #include "CameraView.h"
-#include "PathRecorder.h"
+#include "Handlers.h"
 #include "ViewerScene.h"
 
 #include <gtest/gtest.h>

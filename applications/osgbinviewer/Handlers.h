@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CameraPath.h"
+#include "TextPanel.h"
+
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <osg/Camera>
+#include <osg/Group>
+#include <osgGA/GUIEventHandler>
+#include <osgViewer/View>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::viewer {
+
+/// A handler of keys of osgbinviewer's own; a view has one of each kind. In the help they come before OSG's.
+class KeyHandler : public osgGA::GUIEventHandler {
+public:
+    /// Handles the keys that no other handler has taken, and calls draw() at every frame. Returns: whether the event is
+    /// handled.
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override {
+        auto* const view = dynamic_cast<osgViewer::View*>(action.asView());
+        if (!view || !view->getSceneData()) return false;
+        if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
+            const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
+            if (!cameras.empty()) draw(*view, *cameras.front());
+            return false;
+        }
+        if (event.getHandled()) return false;
+        if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return handleOther(event, *view);
+        for (const Key& key : _keys) {
+            if (key.key != event.getKey()) continue;
+            key.press(*view);
+            action.requestRedraw();
+            return true;
+        }
+        return false;
+    }
+
+    /// The keys, for osgViewer::HelpHandler. OSG sorts all keys by name: a blank comes first.
+    void getUsage(osg::ApplicationUsage& usage) const override {
+        for (const Key& key : _keys)
+            usage.addKeyboardMouseBinding(std::string(" ") + static_cast<char>(key.key), key.use);
+    }
+
+protected:
+    /// `use`: what the key does, for the help.
+    void addKey(int key, const char* use, const std::function<void(osgViewer::View&)>& press) {
+        _keys.push_back({key, use, press});
+    }
+
+    /// At every frame, between cull traversals. `camera`: the first of those that draw the view's scene.
+    virtual void draw(osgViewer::View& /*view*/, osg::Camera& /*camera*/) {}
+
+    /// Any other event. Returns: whether it is handled.
+    virtual bool handleOther(const osgGA::GUIEventAdapter& /*event*/, osgViewer::View& /*view*/) { return false; }
+
+private:
+    struct Key {
+        int key;
+        const char* use;
+        std::function<void(osgViewer::View&)> press;
+    };
+    std::vector<Key> _keys;
+};
+
+/// Key `F`: freezes the culling of a view's cameras, while the view can still be moved. The tiles that were in view
+/// stay drawn, with the frustum as lines and translucent sides down to the globe. `F` again: back to normal.
+class FreezeCullHandler : public KeyHandler {
+public:
+    FreezeCullHandler();
+
+    /// Whether culling is frozen.
+    [[nodiscard]] bool isFrozen() const { return _isFrozen; }
+
+    /// Freezes or thaws the view's cameras, as the key does. Between frames only.
+    void setFrozen(osgViewer::View& view, bool frozen);
+
+private:
+    bool _isFrozen = false;
+};
+
+/// Key `B`: draws the bins that the view's camera tests as curved slabs, coloured by verdict: first those where its
+/// cull traversal ends (tiles culled or drawn), then also the edges of the others, then none. Key `Q`: the same bins'
+/// quadratic approximation as white lines. Bins of maps are not drawn.
+/// Cost: while shown, a TileSurvey for each frame.
+class BinDisplayHandler : public KeyHandler {
+public:
+    /// Which bins are drawn: none, those of tiles culled or drawn, where the cull traversal ends, or all that it came
+    /// to.
+    enum class Shown { Nothing, Ends, All };
+
+    /// Of faces. With less, blue of the sea turns red to violet.
+    static constexpr float kOpacity = 0.6F;
+
+    BinDisplayHandler();
+
+    /// Which bins are drawn from the next frame on, as key `B` chooses.
+    void setShown(Shown shown) { _shown = shown; }
+    [[nodiscard]] Shown shown() const { return _shown; }
+
+    /// The present drawing in the world's frame, one child for each slab.
+    [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
+
+protected:
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    struct Slab {
+        AnalyticBin bin;
+        TileVerdict verdict;
+        bool isEnd;
+        bool withQuadratic;
+        osg::Matrixd ecefToWorld;
+        osg::ref_ptr<osg::Node> node;
+        bool isUsed;
+    };
+
+    void drawSlabs(const TileSurvey& survey);
+    osg::Node* slabOf(const SurveyedTile& tile);
+    void showLegend(const TileSurvey& survey, osg::Camera& camera);
+
+    Shown _shown = Shown::Nothing;
+    bool _showsQuadratic = false;
+    const osg::ref_ptr<osg::Group> _slabs = new osg::Group;
+    const osg::ref_ptr<TextPanel> _legend = new TextPanel(TextPanel::Corner::BottomLeft);
+    std::map<osg::ref_ptr<osg::Node>, Slab> _known;
+};
+
+/// Key `O`: draws a curtain over the part of the picture that terrain covers. Tiles behind the curtain are culled with
+/// `occlusion=on`, and with `auto` while it is in use. With frozen culling and in a second window, the curtain stands
+/// in front of the eye that culls. Where there is no curtain, a line says what is missing for terrain to hide tiles.
+/// Cost: one TileSurvey a frame while the curtain is shown.
+class CoveredPictureHandler : public KeyHandler {
+public:
+    CoveredPictureHandler();
+
+    /// The curtain, in the world's frame. It has no children while nothing is drawn.
+    [[nodiscard]] const osg::Group& curtain() const { return *_curtain; }
+
+protected:
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    bool _isShown = false;
+    const osg::ref_ptr<osg::Group> _curtain = new osg::Group;
+    const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::TopRight);
+};
+
+/// Keys `n` and `N`: the next and the previous culling method for the view's scene, tiles that are paged in later
+/// included; the change in counts of tiles is shown for a while, as a difference while the camera does not move. One
+/// handler for each scene.
+class MethodSwitchHandler : public KeyHandler {
+public:
+    /// `options`: those that the scene's bins were installed with.
+    explicit MethodSwitchHandler(const CullOptions& options = {});
+
+    /// The present culling method.
+    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+
+    /// Culls the view's scene by another method from the next frame on, as the keys do. Between frames only.
+    void setMethod(osgViewer::View& view, Method method);
+
+protected:
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    void showChange(osg::Camera& camera, osg::FrameStamp& frameStamp);
+
+    CullOptions _options;
+    Method _methodBefore;
+    TileCounts _countsBefore;
+    osg::Matrixd _viewBefore;
+    double _shownUntil = -1.0;  // reference time, seconds
+    const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::BottomRight);
+};
+
+/// Key `y`: opens or closes a second window that shows the view's camera from the side: what that camera draws,
+/// and its frustum. Drag in the window to orbit, scroll to zoom.
+class SpyViewHandler : public KeyHandler {
+public:
+    SpyViewHandler();
+
+    /// Opens or closes the window, as the key does. Between frames only; a viewer that draws in threads pauses them.
+    void setOpen(osgViewer::View& view, bool open);
+    /// Whether the window is there.
+    [[nodiscard]] bool isOpen() const { return _camera.valid(); }
+
+    /// The window's camera, a slave of the view's; null while it is closed.
+    [[nodiscard]] osg::Camera* camera() const { return _camera.get(); }
+
+    /// Where the window looks from: radians round the local vertical from behind the view's camera, radians above its
+    /// horizon, and the distance as a multiple of that from the camera to what it looks at.
+    void setOrbit(double azimuth, double elevation, double distance);
+
+protected:
+    ~SpyViewHandler() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+    bool handleOther(const osgGA::GUIEventAdapter& event, osgViewer::View& view) override;
+
+private:
+    class Placement;
+
+    void open(osgViewer::View& view);
+    void close(osgViewer::View& view);
+    bool orbit(const osgGA::GUIEventAdapter& event);
+
+    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osg::Group> _frustum;
+    const osg::ref_ptr<Placement> _placement;
+    float _lastX = 0.0F;
+    float _lastY = 0.0F;
+};
+
+/// The present pose of a camera over the globe of its scene; near and far planes are those of the last frame, with some
+/// room. It has no name.
+/// Returns: nullopt for views that are not perspective or from near the globe's centre, and where there is no globe.
+[[nodiscard]] std::optional<flight::CameraPose> recordedPose(osg::Camera& camera, double time);
+
+/// Key `R`: starts or stops recording the view's camera into a file that osgbinbench plays: a pose every half second
+/// while it moves. The file is written every five seconds, whenever recording stops, and at the end.
+class PathRecorder : public KeyHandler {
+public:
+    /// `interval`: seconds between poses.
+    explicit PathRecorder(const std::string& fileName, double interval = 0.5);
+
+    /// Starts or stops, as the key does; stopping writes the file.
+    void setRecording(bool recording);
+
+    /// What has been recorded so far.
+    [[nodiscard]] const std::vector<flight::CameraPose>& path() const { return _path; }
+
+protected:
+    ~PathRecorder() override;
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    void record(osg::Camera& camera, double time);
+    void write();
+
+    const std::string _fileName;
+    const double _interval;
+    bool _isRecording = false;
+    bool _isWritten = true;
+    double _lastTime = 0.0;
+    double _writtenAt = -1.0;
+    osg::Matrixd _lastView;
+    std::vector<flight::CameraPose> _path;
+};
+
+}  // namespace osgAnalyticBin::viewer
