@@ -22,6 +22,13 @@ constexpr int kTurnsOfVisitor = 8;
 constexpr int kRoundsForOneCold = 4;
 constexpr std::size_t kMebibyte = 1024 * 1024;
 
+// Reads and writes every cache line of some memory, which replaces what the processor's data caches hold. No processor
+// that runs this has shorter lines.
+void touchEveryLine(std::vector<unsigned char>& memory) {
+    constexpr std::size_t kCacheLine = 64;
+    for (std::size_t i = 0; i < memory.size(); i += kCacheLine) ++memory[i];
+}
+
 CullTime timeOf(std::vector<double> times) {
     const support::Quantiles quantiles(std::move(times));
     return {quantiles.at(1, 4), quantiles.at(2, 4), quantiles.at(3, 4) - quantiles.at(1, 4)};
@@ -65,10 +72,6 @@ private:
 };
 
 }  // namespace
-
-void touchEveryLine(std::vector<unsigned char>& memory) {
-    for (std::size_t i = 0; i < memory.size(); i += kCacheLine) ++memory[i];
-}
 
 std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
                                  int flushMebibytes) {

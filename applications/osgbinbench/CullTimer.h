@@ -5,7 +5,6 @@
 
 #include "MethodScene.h"
 
-#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -31,11 +30,5 @@ struct CullTimes {
 /// one. Requires: a viewer at rest. Returns: the times of each scene. Throws: Interrupted.
 [[nodiscard]] std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
                                                int flushMebibytes);
-
-/// Reads and writes every cache line of some memory, which replaces what the processor's data caches hold.
-void touchEveryLine(std::vector<unsigned char>& memory);
-
-/// No processor that runs this has shorter lines.
-inline constexpr std::size_t kCacheLine = 64;
 
 }  // namespace osgAnalyticBin::bench

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DefaultPath.h"
-
+#include "Bench.h"
 #include "ClusterCallbacks.h"
+#include "MethodScene.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 

@@ -15,6 +15,12 @@ using report::PathGroup;
 using report::pathGroupsOf;
 using report::sumOf;
 
+/// What was measured of all methods, the reference first.
+struct Measurement {
+    std::vector<std::string> poses;  ///< names of the methods' rows; empty: of flights
+    std::vector<MethodFigures> methods;
+};
+
 /// A column of what is measured: its name in files, and what it says.
 struct Column {
     const char* name;

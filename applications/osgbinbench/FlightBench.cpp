@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "FlightBench.h"
-
+#include "Bench.h"
 #include "BenchViewer.h"
 #include "Interruption.h"
+#include "MethodScene.h"
 #include "ProgressLine.h"
 #include "Quantiles.h"
 
@@ -182,16 +182,16 @@ bool isStopped(std::size_t done) {
 }
 
 template <class AnyFlight>
-std::vector<MethodFigures> figuresOf(const std::vector<std::unique_ptr<AnyFlight>>& flights) {
-    std::vector<MethodFigures> figures;
-    for (const auto& flight : flights) figures.push_back(flight->figures());
-    return figures;
+Measurement figuresOf(const std::vector<std::unique_ptr<AnyFlight>>& flights) {
+    Measurement measured;
+    for (const auto& flight : flights) measured.methods.push_back(flight->figures());
+    return measured;
 }
 
 /// All methods take turns of so many steps of the way, each time starting with another one.
 template <class Turn>
-std::vector<MethodFigures> inTurns(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch,
-                                   std::size_t steps, std::size_t stepsPerTurn, const char* what, const Turn& turn) {
+Measurement inTurns(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch,
+                    std::size_t steps, std::size_t stepsPerTurn, const char* what, const Turn& turn) {
     const auto flights = flightsOf<Flight>(settings, methods, watch);
     support::ProgressLine progress(stderr);
     for (std::size_t begin = 0; begin < steps && !isStopped(begin); begin += stepsPerTurn) {
@@ -203,24 +203,8 @@ std::vector<MethodFigures> inTurns(const Settings& settings, const std::vector<C
     return figuresOf(flights);
 }
 
-}  // namespace
-
-std::vector<MethodFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
-                                           const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
-    const auto turn = [&](Flight& flight, std::size_t begin) {
-        flight.takeTurn(&frames[begin], frames.data() + std::min(begin + kFramesPerTurn, frames.size()));
-    };
-    return inTurns(settings, methods, watch, frames.size(), kFramesPerTurn, " frames", turn);
-}
-
-std::vector<MethodFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
-                                const std::vector<flight::CameraPose>& poses, FileWatch& watch) {
-    return inTurns(settings, methods, watch, poses.size(), 1, " jumps",
-                   [&](Flight& flight, std::size_t pose) { flight.jumpTo(poses[pose], settings.timeout); });
-}
-
-std::vector<MethodFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
-                                    const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+Measurement flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
+                     const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
     BenchViewer viewer(settings.width, settings.height, settings.threading);
     viewer.sortByState();
     const auto flights = flightsOf<DrawnFlight>(settings, methods, watch);
@@ -230,6 +214,22 @@ std::vector<MethodFigures> flyDrawn(const Settings& settings, const std::vector<
         for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);
     }
     return figuresOf(flights);
+}
+
+}  // namespace
+
+Measurement fly(const Settings& settings, const std::vector<CullMethod>& methods,
+                const std::vector<flight::CameraPose>& path, FileWatch& watch) {
+    if (settings.jumps)
+        return inTurns(settings, methods, watch, path.size(), 1, " jumps",
+                       [&](Flight& flight, std::size_t pose) { flight.jumpTo(path[pose], settings.timeout); });
+    const std::vector<flight::CameraPose> frames = flight::continuousPath(path, settings.frames);
+    if (settings.draw) return flyDrawn(settings, methods, frames, watch);
+    return inTurns(settings, methods, watch, frames.size(), kFramesPerTurn, " frames",
+                   [&](Flight& flight, std::size_t begin) {
+                       const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
+                       flight.takeTurn(&frames[begin], frames.data() + end);
+                   });
 }
 
 }  // namespace osgAnalyticBin::bench

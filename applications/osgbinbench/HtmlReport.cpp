@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "HtmlReport.h"
-
 #include "Failure.h"
-#include "Figures.h"
+#include "Output.h"
 #include "TextFile.h"
 
 #include <osgDB/ConvertBase64>

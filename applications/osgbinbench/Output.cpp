@@ -120,12 +120,12 @@ TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<Me
 
 }  // namespace
 
-std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+std::string csvOf(const Measurement& measured) {
     std::vector<Json> rows;
-    for (std::size_t i = 0; i < methods.front().rows.size(); ++i) {
-        for (const MethodFigures& method : methods) {
+    for (std::size_t i = 0; i < measured.methods.front().rows.size(); ++i) {
+        for (const MethodFigures& method : measured.methods) {
             Json& row = rows.emplace_back();
-            if (!poses.empty()) row["pose"] = poses[i];
+            if (!measured.poses.empty()) row["pose"] = measured.poses[i];
             row["method"] = method.method;
             row.update(method.rows[i]);
         }
@@ -133,8 +133,8 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
     return report::csvOf(rows);
 }
 
-std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                   const std::vector<MethodFigures>& methods) {
+std::string jsonOf(const Settings& settings, const Measurement& measured) {
+    const auto& [poses, methods] = measured;
     const bool isFlight = poses.empty();
     Json json = headOf(settings, !isFlight ? "poses" : settings.draw ? "drawn" : settings.jumps ? "jumps" : "flight");
     if (!isFlight) json["poses"] = poses.size();
@@ -150,7 +150,8 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
     return json.dump(2) + "\n";
 }
 
-std::vector<TextTable> tablesOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+std::vector<TextTable> tablesOf(const Measurement& measured) {
+    const auto& [poses, methods] = measured;
     const Json sums = sumsOf(methods, allOf(methods.front()));
     Json shown = sums;
     addTimesOverOracle(shown);
@@ -233,12 +234,12 @@ std::string settingsOf(const BarChart& chart, const std::vector<PathGroup>& grou
 
 }  // namespace
 
-std::vector<Diagram> diagramsOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
-    Methods shown = methods;
-    const bool isAlone = methods.size() == 1;
+std::vector<Diagram> diagramsOf(const Measurement& measured) {
+    Methods shown = measured.methods;
+    const bool isAlone = shown.size() == 1;
     const auto isReference = [](const MethodFigures& method) { return method.method == kReferenceMethod; };
     if (!isAlone) shown.erase(std::remove_if(shown.begin(), shown.end(), isReference), shown.end());
-    const std::vector<PathGroup> groups = pathGroupsOf(poses);
+    const std::vector<PathGroup> groups = pathGroupsOf(measured.poses);
     std::vector<Diagram> diagrams;
     for (const BarChart& chart : kBarCharts) {
         std::vector<Json> rows;
@@ -347,7 +348,8 @@ std::string whereSentence(const Judge& judge, const std::vector<PathGroup>& path
 
 }  // namespace
 
-std::vector<std::string> adviceOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+std::vector<std::string> adviceOf(const Measurement& measured) {
+    const auto& [poses, methods] = measured;
     const Judge judge(methods);
     if (!judge.isPossible()) return {};
     const PathGroup all = allOf(methods.front());

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "PoseBench.h"
-
+#include "Bench.h"
 #include "BenchViewer.h"
 #include "CullTimer.h"
 #include "Failure.h"
@@ -126,8 +125,8 @@ public:
     }
 
     [[nodiscard]] PoseFigures run(const std::vector<flight::CameraPose>& path) {
-        std::vector<MethodFigures> methods;
-        for (const auto& scene : _scenes) methods.push_back({scene->method().name, {}});
+        Measurement measured;
+        for (const auto& scene : _scenes) measured.methods.push_back({scene->method().name, {}});
         support::ProgressLine progress(stderr);
         for (std::size_t i = 0; i < path.size() && !support::stopRequested; ++i) {
             progress.show(static_cast<double>(i) / static_cast<double>(path.size()),
@@ -135,13 +134,14 @@ public:
                               path[i].name + ", ");
             try {
                 const std::vector<report::Json> rows = measure(path[i]);
-                for (std::size_t m = 0; m < methods.size(); ++m) methods[m].rows.push_back(rows[m]);
+                for (std::size_t m = 0; m < rows.size(); ++m) measured.methods[m].rows.push_back(rows[m]);
+                measured.poses.push_back(path[i].name);
             } catch (const support::Interrupted&) {
                 break;
             }
         }
-        if (methods.front().rows.empty()) throw support::Interrupted("interrupted before the first pose was measured");
-        return {std::move(methods), std::move(_pictures)};
+        if (measured.poses.empty()) throw support::Interrupted("interrupted before the first pose was measured");
+        return {std::move(measured), std::move(_pictures)};
     }
 
 private:

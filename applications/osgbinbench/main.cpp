@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Bench.h"
 #include "Compare.h"
-#include "ContinuousPath.h"
-#include "DefaultPath.h"
-#include "FlightBench.h"
-#include "HtmlReport.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "PoseBench.h"
 #include "ProgramRun.h"
 #include "Report.h"
 #include "ScaleCommand.h"
@@ -41,20 +37,14 @@ void shareMemoryAmongThreads() {
 #endif
 }
 
-std::vector<std::string> namesOf(const std::vector<CameraPose>& path) {
-    std::vector<std::string> names;
-    for (const CameraPose& pose : path) names.push_back(pose.name);
-    return names;
-}
-
 std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
     if (settings.paths.empty()) return defaultPath(settings, watch);
     return osgAnalyticBin::flight::readCameraPathFiles(settings.paths);
 }
 
-void write(const Settings& settings, const std::string& csv, const std::string& json) {
-    if (!settings.csv.empty()) writeFile(settings.csv, csv);
-    if (!settings.json.empty()) writeFile(settings.json, json);
+void write(const Settings& settings, const Measurement& measured) {
+    if (!settings.csv.empty()) writeFile(settings.csv, csvOf(measured));
+    if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, measured));
 }
 
 // Says what is missing after Ctrl-C. Returns: empty where nothing is.
@@ -66,10 +56,10 @@ std::string notePartial(std::size_t measured, std::size_t poses) {
     return text;
 }
 
-void tell(const Settings& settings, const std::vector<MethodFigures>& flights) {
-    write(settings, csvOf({}, flights), jsonOf(settings, {}, flights));
+void tell(const Settings& settings, const Measurement& measured) {
+    write(settings, measured);
     (void)notePartial(0, 0);
-    print(std::cout, tablesOf({}, flights));
+    print(std::cout, tablesOf(measured));
 }
 
 // Of each path the first.
@@ -79,23 +69,20 @@ std::vector<Picture> chosenPictures(const std::vector<std::string>& poses, const
     return chosen;
 }
 
-void tellOfPoses(const Settings& settings, std::vector<CameraPose> path, const PoseFigures& measured) {
-    const std::vector<MethodFigures>& figures = measured.methods;
-    const std::size_t planned = path.size();
-    path.resize(figures.front().rows.size());
-    const std::vector<std::string> poses = namesOf(path);
-    write(settings, csvOf(poses, figures), jsonOf(settings, poses, figures));
-    const std::string partial = notePartial(poses.size(), planned);
-    HtmlReport report{settings.database, partial, adviceOf(poses, figures), tablesOf(poses, figures), {}, {}};
+void tellOfPoses(const Settings& settings, std::size_t planned, const PoseFigures& found) {
+    const Measurement& measured = found.measured;
+    write(settings, measured);
+    const std::string partial = notePartial(measured.poses.size(), planned);
+    HtmlReport report{settings.database, partial, adviceOf(measured), tablesOf(measured), {}, {}};
     print(std::cout, report.tables);
     for (const std::string& sentence : report.sentences)
         std::cout << (&sentence == &report.sentences.front() ? "\n" : "") << sentence << '\n';
     std::cout.flush();
     if (settings.plot.empty() && settings.report.empty()) return;
-    report.diagrams = diagramsOf(poses, figures);
+    report.diagrams = diagramsOf(measured);
     if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, report.diagrams);
     if (settings.report.empty()) return;
-    report.pictures = chosenPictures(poses, measured.pictures);
+    report.pictures = chosenPictures(measured.poses, found.pictures);
     writeFile(settings.report, report.html());
     std::cout << "\nThe same with diagrams and pictures: " << settings.report << std::endl;
 }
@@ -105,12 +92,8 @@ void measure(const Settings& settings) {
     const osg::ref_ptr<FileWatch> watch = new FileWatch;
     watch->install();
     const std::vector<CameraPose> path = pathOf(settings, *watch);
-    if (settings.draw)
-        return tell(settings, flyDrawn(settings, methods, continuousPath(path, settings.frames), *watch));
-    if (settings.jumps) return tell(settings, jump(settings, methods, path, *watch));
-    if (settings.frames > 0)
-        return tell(settings, flyContinuously(settings, methods, continuousPath(path, settings.frames), *watch));
-    tellOfPoses(settings, path, measureAtPoses(settings, methods, path, *watch));
+    if (settings.jumps || settings.frames > 0) return tell(settings, fly(settings, methods, path, *watch));
+    tellOfPoses(settings, path.size(), measureAtPoses(settings, methods, path, *watch));
 }
 
 ExitCode run(int argc, char** argv) {

@@ -49,4 +49,11 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path);
 /// Replaces a file when the new one is complete. Throws: Failure when that fails; what was there before stays.
 void writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path);
 
+/// A continuous flight from the first pose of a path to the last, its time evenly divided into frames: eye and look
+/// point run along great circles, altitudes above zero, fields of view, near and far grow by equal ratios, roll and the
+/// way of the eye aside by equal steps. Poses without times, all 0, are taken to be a second apart.
+/// Requires: a path with a pose; frames > 0. Returns: that many poses, the path's first and last among them (with one
+/// frame the first alone), without names.
+[[nodiscard]] std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int frames);
+
 }  // namespace osgAnalyticBin::flight

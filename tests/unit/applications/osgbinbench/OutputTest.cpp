@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What osgbinbench makes of its figures: JSON, CSV, tables, diagrams, which need gnuplot to be drawn, and the three
-// sentences that it ends with. That caches are cold where it says so.
+//
 
-#include "CullTimer.h"
 #include "Failure.h"
 #include "Output.h"
 #include "TextFile.h"
@@ -54,7 +53,7 @@ std::vector<MethodFigures> twoMethods() {
 }
 
 TEST(Output, JsonHoldsTheSumsByMethodAndPathAndEveryPose) {
-    const auto json = nlohmann::json::parse(jsonOf(Settings(), {"down_1", "far"}, twoMethods()));
+    const auto json = nlohmann::json::parse(jsonOf(Settings(), {{"down_1", "far"}, twoMethods()}));
     EXPECT_EQ(json["poses"], 2);
     EXPECT_EQ(json["methods"]["none"]["drawn_tiles"], 10);
     EXPECT_EQ(json["methods"]["sphere"]["drawn_tiles"], 5);
@@ -84,7 +83,7 @@ TEST(Output, PosesBelongToThePathThatTheirNamesBeginWith) {
 }
 
 TEST(Output, CsvHasALineForEachPoseAndMethod) {
-    const std::string text = csvOf({"a", "b"}, twoMethods());
+    const std::string text = csvOf({{"a", "b"}, twoMethods()});
     std::istringstream lines(text);
     Poses begins;
     for (std::string line; std::getline(lines, line);) begins.push_back(line.substr(0, 9));
@@ -96,7 +95,7 @@ TEST(Output, CsvHasALineForEachPoseAndMethod) {
 TEST(Output, TablesHaveRatiosToWhatWasMeasuredAndSumsOfSeveralPaths) {
     const auto tables = [](const Poses& poses, const std::vector<MethodFigures>& methods) {
         std::ostringstream output;
-        print(output, tablesOf(poses, methods));
+        print(output, tablesOf({poses, methods}));
         return output.str();
     };
     const auto expectParts = [](const std::string& text, const Poses& parts, const Poses& others) {
@@ -126,14 +125,6 @@ TEST(Output, AFileThatCannotBeWrittenStaysAsItWas) {
     EXPECT_FALSE(std::filesystem::exists(file + ".tmp"));
 }
 
-TEST(CullTimer, TouchesEveryCacheLine) {
-    std::vector<unsigned char> memory(3U << 20U);
-    touchEveryLine(memory);
-    touchEveryLine(memory);
-    for (std::size_t line = 0; line < memory.size(); line += kCacheLine)
-        ASSERT_EQ(memory[line], 2) << line;  // the second time has read what the first one wrote
-}
-
 std::vector<Diagram> diagrams() {
     std::vector<MethodFigures> methods;
     for (const auto& [name, drawn, cullMs] : {std::tuple("none", 40U, 2.0), {"sphere", 8U, 1.0}, {"a+b_c", 4U, 0.5}}) {
@@ -146,7 +137,7 @@ std::vector<Diagram> diagrams() {
             pose["cull_spread_ms"] = cullMs / 4.0;
         }
     }
-    return diagramsOf({"down_1", "down_2", "far_1"}, methods);
+    return diagramsOf({{"down_1", "down_2", "far_1"}, methods});
 }
 
 const std::string& dataOf(const std::vector<Diagram>& all, const std::string& name) {
@@ -167,7 +158,7 @@ TEST(Plot, DataHoldRatiosAndMeansByPathWithoutTheReferenceUnlessItIsAlone) {
               "down,1,0.125,0.5,0.0625\nfar,1,0.125,0.5,0.0625\n");
     MethodFigures none = figuresOf("none", {8, 8}, {1.0, 1.0});
     for (report::Json& pose : none.rows) pose["truth_tiles"] = 4;
-    EXPECT_EQ(dataOf(diagramsOf({"down_1", "far_1"}, {none}), "drawn"), "path,none\ndown,2\nfar,2\n");
+    EXPECT_EQ(dataOf(diagramsOf({{"down_1", "far_1"}, {none}}), "drawn"), "path,none\ndown,2\nfar,2\n");
 }
 
 TEST(Plot, DrawsEveryDiagramTwiceAndSaysWhichScriptFailed) {
@@ -182,7 +173,7 @@ TEST(Plot, DrawsEveryDiagramTwiceAndSaysWhichScriptFailed) {
         EXPECT_EQ(test::textOfFile(file + ".csv"), diagram.data);
     }
     // poses that nothing is counted at
-    EXPECT_NO_THROW(report::plot(folder.path(), diagramsOf({"a", "b"}, {emptyFigures("sphere", 2)})));
+    EXPECT_NO_THROW(report::plot(folder.path(), diagramsOf({{"a", "b"}, {emptyFigures("sphere", 2)}})));
     EXPECT_THROW(report::plot(folder.path(), {{"broken", "", "plot 1 with nothing\n"}}), Failure);
 }
 
@@ -200,7 +191,7 @@ TEST(Plot, KeepsDataAndScriptsWhereThereIsNoGnuplot) {
 }
 
 Sentences advice(const std::vector<MethodFigures>& methods) {
-    return adviceOf({"far_1", "near_1"}, methods);
+    return adviceOf({{"far_1", "near_1"}, methods});
 }
 
 TEST(Advice, ComparesWithTheBetterOfTheOthersInEachFigure) {

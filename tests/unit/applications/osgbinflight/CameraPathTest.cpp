@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <support/FailureText.h>
@@ -172,6 +173,50 @@ TEST(FlightOptions, ReadsEveryParameterAndPassesOverThoseOfOtherPlugins) {
         const std::string error = test::failureOf([&] { readBracketed(options.parameters(), bad); });
         EXPECT_NE(error.find(bad), std::string::npos) << error;
     }
+}
+
+constexpr double kTolerance = 1e-12;
+
+CameraPose poseAt(double latDeg, double lonDeg, double altitude, double time = 0.0) {
+    const double longitude = lonDeg * kPi / 180.0;
+    CameraPose pose{"p", {latDeg * kPi / 180.0, longitude, altitude}, {0.1, longitude, 0.0}, 1.0, 10.0, 1000.0};
+    pose.time = time;
+    return pose;
+}
+
+TEST(ContinuousPath, ReachesThePosesAtTheirTimes) {
+    for (const double middle : {6.0, 7.0}) {
+        const std::vector<CameraPose> path{poseAt(10, 20, 1000, 5.0), poseAt(30, 40, 4000, middle),
+                                           poseAt(50, 60, 500, 9.0)};
+        const auto frames = continuousPath(path, 5);
+        ASSERT_EQ(frames.size(), 5U);
+        const std::size_t places[] = {0, static_cast<std::size_t>(middle) - 5, 4};
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(frames[places[i]].eye.latitude, path[i].eye.latitude, kTolerance);
+            EXPECT_NEAR(frames[places[i]].eye.longitude, path[i].eye.longitude, kTolerance);
+            EXPECT_NEAR(frames[places[i]].eye.altitude, path[i].eye.altitude, 1e-9);
+            EXPECT_NEAR(frames[places[i]].time, path[i].time, kTolerance);
+        }
+    }
+}
+
+TEST(ContinuousPath, ClimbsByEqualRatiosRollsAndStepsAsideAndCrossesTheDateLineTheShortWay) {
+    std::vector<CameraPose> path{poseAt(0, 170, 1000, 0.0), poseAt(0, -170, 4000, 1.0)};
+    path[0].roll = -0.5;
+    path[1].roll = 1.5;
+    path[1].eyeRight = 8.0;
+    const auto frames = continuousPath(path, 5);
+    EXPECT_NEAR(frames[2].eye.altitude, 2000.0, 1e-9);
+    EXPECT_NEAR(std::cos(frames[2].eye.longitude), -1.0, kTolerance);
+    EXPECT_NEAR(frames[1].roll, 0.0, kTolerance);
+    EXPECT_NEAR(frames[1].eyeRight, 2.0, kTolerance);
+}
+
+TEST(ContinuousPath, TakesOnePoseOrOneFrame) {
+    EXPECT_EQ(continuousPath({poseAt(1, 2, 3)}, 4).size(), 4U);
+    const auto frames = continuousPath({poseAt(10, 20, 1000), poseAt(30, 40, 4000)}, 1);
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_NEAR(frames[0].eye.altitude, 1000.0, 1e-9);
 }
 
 }  // namespace
