@@ -5,6 +5,7 @@
 
 #include "Angles.h"
 #include "GlmBridge.h"
+#include "Nodes.h"
 
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileFrame.h>
@@ -27,31 +28,13 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
+using support::forAllNodes;
 using support::kPi;
 // Tiles that reach farther from their middle than this get no callback; VirtualPlanetBuilder's number.
 constexpr double kFarthestAngle = 0.5 * kPi - 0.1;
 
-class NodeWalk final : public osg::NodeVisitor {
-public:
-    explicit NodeWalk(const std::function<void(osg::Node&)>& visit)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _visit(visit) {
-        setNodeMaskOverride(~0U);
-    }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        _visit(node);
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-private:
-    const std::function<void(osg::Node&)>& _visit;
-};
-
 osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
-    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback())
-        if (auto* const cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback)) return cluster;
-    return nullptr;
+    return support::findCallback<osg::ClusterCullingCallback>(node.getCullCallback());
 }
 
 /// A vertex of a tile on a globe.
@@ -171,11 +154,6 @@ bool fill(const FoundTile& tile) {
 }
 
 }  // namespace
-
-void forAllNodes(osg::Node& graph, const std::function<void(osg::Node&)>& visit) {
-    NodeWalk walk(visit);
-    graph.accept(walk);
-}
 
 std::size_t removeClusterCallbacks(osg::Node& graph) {
     std::size_t removed = 0;

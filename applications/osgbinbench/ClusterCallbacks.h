@@ -10,15 +10,10 @@
 #include <osg/Node>
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
-
-/// Visits all nodes of a graph, masked ones too, but nothing below tiles of osgTerrain: one that is traversed before
-/// its first update never finds its Terrain.
-void forAllNodes(osg::Node& graph, const std::function<void(osg::Node&)>& visit);
 
 /// Takes every ClusterCullingCallback off the graph, those of nodes and those of drawables; other callbacks in the same
 /// chain stay. Returns: how many were taken off.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "Bench.h"
-#include "ClusterCallbacks.h"
 #include "MethodScene.h"
+#include "Nodes.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
@@ -27,11 +27,9 @@ constexpr double kVerticalFov = 60.0;  // degrees
 
 std::vector<GeodeticBin> loadedBins(osg::Node& scene) {
     std::vector<GeodeticBin> bins;
-    forAllNodes(scene, [&](osg::Node& node) {
-        for (osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-            const auto* const tile = dynamic_cast<const AnalyticBinCullCallback*>(at);
-            if (tile && tile->shownBin().valid()) bins.push_back(tile->shownBin().bin());
-        }
+    support::forAllNodes(scene, [&](osg::Node& node) {
+        const auto* const tile = support::findCallback<AnalyticBinCullCallback>(node.getCullCallback());
+        if (tile && tile->shownBin().valid()) bins.push_back(tile->shownBin().bin());
     });
     return bins;
 }

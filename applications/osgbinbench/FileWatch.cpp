@@ -4,6 +4,7 @@
 #include "FileWatch.h"
 
 #include "ClusterCallbacks.h"
+#include "Nodes.h"
 
 #include <osg/PagedLOD>
 
@@ -12,6 +13,8 @@
 namespace osgAnalyticBin::bench {
 
 namespace {
+
+using support::forAllNodes;
 
 osg::ref_ptr<const osg::EllipsoidModel> copyOf(const osg::EllipsoidModel* globe) {
     return globe ? new osg::EllipsoidModel(globe->getRadiusEquator(), globe->getRadiusPolar()) : nullptr;

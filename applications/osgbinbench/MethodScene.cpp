@@ -6,6 +6,7 @@
 #include "CsvTable.h"
 #include "Failure.h"
 #include "Interruption.h"
+#include "Nodes.h"
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
@@ -36,32 +37,15 @@ protected:
     ~OwnScene() override = default;
 };
 
-class VerticalScaler : public osg::NodeVisitor {
-public:
-    explicit VerticalScaler(double scale)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _scale(static_cast<float>(scale)) {}
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Group& node) override {
-        if (auto* const terrain = dynamic_cast<osgTerrain::Terrain*>(&node)) {
-            terrain->setVerticalScale(_scale);
-            found = true;
-        }
-        // What is traversed below a Terrain before its first update never finds it.
-        if (!found) traverse(node);
-    }
-
-    bool found = false;
-
-private:
-    float _scale;
-};
-
 void scaleVertically(osg::Node& scene, double scale, const std::string& database) {
-    VerticalScaler scaler(scale);
-    scene.accept(scaler);
-    if (!scaler.found)
-        throw Failure("--vertical-scale: " + database + " has no osgTerrain::Terrain; leave the option out");
+    bool isFound = false;
+    support::visitNodes(scene, [&](osg::Node& node, osg::NodeVisitor&) {
+        auto* const terrain = dynamic_cast<osgTerrain::Terrain*>(&node);
+        if (terrain) terrain->setVerticalScale(static_cast<float>(scale));
+        isFound = isFound || terrain;
+        return !isFound;
+    });
+    if (!isFound) throw Failure("--vertical-scale: " + database + " has no osgTerrain::Terrain; leave the option out");
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 #include "ClusterCallbacks.h"
 #include "CullMethod.h"
 #include "Failure.h"
+#include "Nodes.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Transform>
 #include <osgTerrain/Terrain>
-#include <osgTerrain/TerrainTile>
 
 #include <set>
 #include <typeinfo>
@@ -65,32 +65,12 @@ bool acceptsAll(const osg::Node& node) {
            typeid(node) == typeid(osgTerrain::Terrain) || node.asTransform();
 }
 
-/// Puts the verdicts on a scene without bins.
-class ReplayInstaller final : public osg::NodeVisitor {
-public:
-    explicit ReplayInstaller(const Nodes& kept) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _kept(kept) {
-        setNodeMaskOverride(~0U);
-    }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        // LODs choose their children by themselves: the mask keeps them out of what was culled
-        if (_kept.count(&node) == 0) return node.setNodeMask(0);
-        if (acceptsAll(node)) filter(*node.asGroup());
-        // A tile of osgTerrain that is traversed before its first update never finds its Terrain.
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-private:
-    void filter(osg::Group& group) const {
-        osg::NodeList kept;
-        for (unsigned int i = 0; i < group.getNumChildren(); ++i)
-            if (_kept.count(group.getChild(i)) != 0) kept.emplace_back(group.getChild(i));
-        if (kept.size() < group.getNumChildren()) group.addCullCallback(new AcceptKept(std::move(kept)));
-    }
-
-    const Nodes& _kept;
-};
+void filter(osg::Group& group, const Nodes& kept) {
+    osg::NodeList children;
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
+        if (kept.count(group.getChild(i)) != 0) children.emplace_back(group.getChild(i));
+    if (children.size() < group.getNumChildren()) group.addCullCallback(new AcceptKept(std::move(children)));
+}
 
 }  // namespace
 
@@ -100,8 +80,13 @@ void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     removeBins(scene);
     removeClusterCallbacks(scene);
     for (const auto& node : kept) node->setCullingActive(false);
-    ReplayInstaller installer(kept);
-    scene.accept(installer);
+    support::visitNodes(scene, [&](osg::Node& node, osg::NodeVisitor&) {
+        const bool isKept = kept.count(&node) != 0;
+        // LODs choose their children by themselves: the mask keeps them out of what was culled
+        if (!isKept) node.setNodeMask(0);
+        if (isKept && acceptsAll(node)) filter(*node.asGroup(), kept);
+        return isKept;
+    });
 }
 
 void requireSameTiles(const flight::Census& replay, const flight::Census& original, const std::string& pose) {

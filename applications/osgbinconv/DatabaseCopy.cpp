@@ -5,6 +5,7 @@
 #include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
+#include "Nodes.h"
 #include "Progress.h"
 #include "TextFile.h"
 
@@ -18,7 +19,6 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
 #include <osgDB/Registry>
-#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <atomic>
@@ -38,6 +38,7 @@ namespace osgbinconv {
 
 namespace fs = std::filesystem;
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::findCallback;
 using osgAnalyticBin::support::throwIfStopRequested;
 using osgAnalyticBin::support::UsageError;
 
@@ -201,52 +202,26 @@ private:
     std::vector<std::string> _written;
 };
 
-template <class Callback>
-Callback* callbackIn(osg::Callback* first) {
-    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback())
-        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
-    return nullptr;
+/// Gives the files that a node pages their new names, and takes away what the bins stand in for.
+void rename(osg::Node& node, const std::string& extension, bool keepClusters) {
+    while (const osg::ref_ptr<osg::Callback> old = findCallback<InstallBinsCallback>(node.getUpdateCallback()))
+        node.removeUpdateCallback(old);
+    while (!keepClusters) {
+        const osg::ref_ptr<osg::Callback> old = findCallback<osg::ClusterCullingCallback>(node.getCullCallback());
+        if (!old) break;
+        node.removeCullCallback(old);
+    }
+    if (auto* const paged = dynamic_cast<osg::PagedLOD*>(&node)) {
+        for (unsigned int i = 0; i < paged->getNumFileNames(); ++i)
+            if (const std::string& name = paged->getFileName(i); !name.empty())
+                paged->setFileName(i, withExtension(name, extension));
+        paged->setDatabasePath("");
+    }
+    // what was read in place of a name goes to the copy, for the file does not
+    if (auto* const proxy = dynamic_cast<osg::ProxyNode*>(&node))
+        for (unsigned int i = 0; i < proxy->getNumFileNames() && i < proxy->getNumChildren(); ++i)
+            proxy->setFileName(i, "");
 }
-
-/// Gives the files that a scene pages their new names, and takes away what the bins stand in for.
-class Renaming : public osg::NodeVisitor {
-public:
-    Renaming(const std::string& extension, bool keepClusters)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _extension(extension), _keepClusters(keepClusters) {
-        setNodeMaskOverride(~0u);
-    }
-
-    void apply(osg::Node& node) override {
-        while (osg::ref_ptr<osg::Callback> old = callbackIn<InstallBinsCallback>(node.getUpdateCallback()))
-            node.removeUpdateCallback(old);
-        while (!_keepClusters) {
-            const osg::ref_ptr<osg::Callback> old = callbackIn<osg::ClusterCullingCallback>(node.getCullCallback());
-            if (!old) break;
-            node.removeCullCallback(old);
-        }
-        // A terrain tile that is traversed before it has its Terrain never finds it afterwards.
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-    void apply(osg::PagedLOD& node) override {
-        for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
-            const std::string& name = node.getFileName(i);
-            if (!name.empty()) node.setFileName(i, withExtension(name, _extension));
-        }
-        node.setDatabasePath("");
-        apply(static_cast<osg::Node&>(node));
-    }
-
-    /// What was read in place of a name goes to the copy, for the file does not.
-    void apply(osg::ProxyNode& node) override {
-        for (unsigned int i = 0; i < node.getNumFileNames() && i < node.getNumChildren(); ++i) node.setFileName(i, "");
-        apply(static_cast<osg::Node&>(node));
-    }
-
-private:
-    const std::string& _extension;
-    const bool _keepClusters;
-};
 
 void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index) {
     struct Stored {
@@ -316,8 +291,8 @@ private:
         const osg::ref_ptr<osg::Node> scene = _files.read(record.file, Images::Read, error);
         if (!scene) throw Failure("\"" + _files.pathOf(record.file) + "\" " + error + "; it was there before");
         storeBins(*scene, record, *_built.index);
-        Renaming renaming(_target.extension(), _options.keepClusters);
-        scene->accept(renaming);
+        osgAnalyticBin::support::forAllNodes(
+            *scene, [&](osg::Node& node) { rename(node, _target.extension(), _options.keepClusters); });
         if (record.file.empty()) requestBins(*scene);
         return scene;
     }

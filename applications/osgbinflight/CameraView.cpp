@@ -3,6 +3,8 @@
 
 #include "CameraView.h"
 
+#include "Nodes.h"
+
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <osg/Transform>
@@ -15,22 +17,6 @@
 namespace osgAnalyticBin::flight {
 
 namespace {
-
-class GlobeFinder : public osg::NodeVisitor {
-public:
-    GlobeFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override {
-        if (!found) traverse(node);
-    }
-    void apply(osg::CoordinateSystemNode& node) override {
-        if (!found && node.getEllipsoidModel() && hasValidRadii(*node.getEllipsoidModel()))
-            found = Globe{node.getEllipsoidModel(), osg::computeLocalToWorld(getNodePath())};
-        apply(static_cast<osg::Node&>(node));
-    }
-
-    std::optional<Globe> found;
-};
 
 // Sine of the angle to the vertical below which the horizon has no "up": 0.006 degrees.
 constexpr double kStraight = 1e-4;
@@ -97,9 +83,14 @@ std::optional<osg::Vec3d> firstHit(osg::Node& scene, const osg::Vec3d& from, con
 }
 
 std::optional<Globe> findGlobe(osg::Node& scene) {
-    GlobeFinder finder;
-    scene.accept(finder);
-    return finder.found;
+    std::optional<Globe> found;
+    support::visitNodes(scene, [&](osg::Node& node, osg::NodeVisitor& visitor) {
+        const auto* const globe = dynamic_cast<osg::CoordinateSystemNode*>(&node);
+        if (!found && globe && globe->getEllipsoidModel() && hasValidRadii(*globe->getEllipsoidModel()))
+            found = Globe{globe->getEllipsoidModel(), osg::computeLocalToWorld(visitor.getNodePath())};
+        return !found;
+    });
+    return found;
 }
 
 Globe globeOf(osg::Node& scene) {

@@ -3,12 +3,13 @@
 
 #include "TileCensus.h"
 
+#include "Nodes.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/PagedLOD>
 #include <osg/Transform>
-#include <osgTerrain/TerrainTile>
 
 #include <typeinfo>
 
@@ -36,35 +37,19 @@ bool isOnPage(const osg::NodePath& path) {
     return false;
 }
 
-const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback())
-        if (const auto* const callback = dynamic_cast<const AnalyticBinCullCallback*>(at)) return callback;
-    return nullptr;
+const AnalyticBinCullCallback* binCallback(osg::Node& node) {
+    return support::findCallback<AnalyticBinCullCallback>(node.getCullCallback());
 }
 
 // The bin of the path's last node, a tile; the kit culls a tile that is a transform in a group that stands for it.
 AnalyticBin binOfTile(const osg::NodePath& path) {
     const AnalyticBinCullCallback* callback = binCallback(*path.back());
     if (!callback && path.size() > 1 && isPlainGroup(*path[path.size() - 2])) {
-        const osg::Group& parent = *path[path.size() - 2]->asGroup();
+        osg::Group& parent = *path[path.size() - 2]->asGroup();
         if (parent.getNumChildren() == 1) callback = binCallback(parent);
     }
     return callback ? callback->shownBin() : AnalyticBin();
 }
-
-class ResidentCounter : public osg::NodeVisitor {
-public:
-    ResidentCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        count += isTile(getNodePath()) ? 1U : 0U;
-        // One that is traversed before its first update never finds its Terrain; it has no tiles below it.
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-    std::uint64_t count = 0;
-};
 
 }  // namespace
 
@@ -76,9 +61,12 @@ bool isTile(const osg::NodePath& path) {
 }
 
 std::uint64_t residentTiles(osg::Node& scene) {
-    ResidentCounter counter;
-    scene.accept(counter);
-    return counter.count;
+    std::uint64_t count = 0;
+    support::visitNodes(scene, [&](osg::Node&, osg::NodeVisitor& visitor) {
+        count += isTile(visitor.getNodePath()) ? 1U : 0U;
+        return true;
+    });
+    return count;
 }
 
 std::set<std::string> Census::keys() const {

@@ -4,13 +4,13 @@
 #include "ScaleCommand.h"
 
 #include "Angles.h"
-#include "ClusterCallbacks.h"
 #include "CommandLine.h"
 #include "CullMethod.h"
 #include "CullTimer.h"
 #include "Diagram.h"
 #include "Failure.h"
 #include "ModuleFolder.h"
+#include "Nodes.h"
 #include "Quantiles.h"
 #include "Table.h"
 #include "TextFile.h"
@@ -126,7 +126,7 @@ std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
 
 PagedLods pagedLodsIn(osg::Node& scene) {
     PagedLods found;
-    bench::forAllNodes(scene, [&](osg::Node& node) {
+    support::forAllNodes(scene, [&](osg::Node& node) {
         if (auto* const paged = dynamic_cast<osg::PagedLOD*>(&node)) found.emplace_back(paged);
     });
     return found;

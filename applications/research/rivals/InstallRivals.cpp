@@ -3,6 +3,7 @@
 
 #include "InstallRivals.h"
 
+#include "Nodes.h"
 #include "RivalCullCallback.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
@@ -10,18 +11,10 @@
 
 #include <osg/Geode>
 #include <osg/NodeCallback>
-#include <osg/NodeVisitor>
-#include <osgTerrain/TerrainTile>
 
 namespace osgAnalyticBin::rivals {
 
 namespace {
-
-RivalCullCallback* rivalOf(osg::Node& node) {
-    for (osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback())
-        if (auto* const rival = dynamic_cast<RivalCullCallback*>(at)) return rival;
-    return nullptr;
-}
 
 void removeRival(osg::Node& node, RivalCullCallback& rival) {
     const osg::ref_ptr<RivalCullCallback> kept(&rival);
@@ -31,40 +24,27 @@ void removeRival(osg::Node& node, RivalCullCallback& rival) {
     rival.setNestedCallback(nullptr);
 }
 
-/// Puts the rule in front of the kit's callbacks that have none, or an older bin's.
-class RivalPlacer final : public osg::NodeVisitor {
-public:
-    explicit RivalPlacer(const RivalOptions& options) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _options(options) {
-        setNodeMaskOverride(~0U);
-    }
+// Puts the rule in front of the kit's callback where it has none, or an older bin's. Returns: whether it did.
+bool place(osg::Node& node, const RivalOptions& options) {
+    auto* const old = support::findCallback<RivalCullCallback>(node.getCullCallback());
+    osg::Callback* const first = node.getCullCallback();
+    auto* const tile = dynamic_cast<AnalyticBinCullCallback*>(old && old == first ? first->getNestedCallback() : first);
+    if (tile && old && old == first && old->isFor(*tile)) return false;
+    if (old) removeRival(node, *old);
+    if (!tile || !tile->shownBin().valid()) return false;
+    node.setCullCallback(new RivalCullCallback(*tile, options));
+    node.setCullingActive(false);
+    return true;
+}
 
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        place(node);
-        // one that is traversed before its first update never finds its Terrain
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-    void apply(osg::Geode& node) override { place(node); }
-
+std::size_t placeAll(osg::Node& scene, const RivalOptions& options) {
     std::size_t placed = 0;
-
-private:
-    void place(osg::Node& node) {
-        RivalCullCallback* const old = rivalOf(node);
-        osg::Callback* const first = node.getCullCallback();
-        auto* const tile =
-            dynamic_cast<AnalyticBinCullCallback*>(old && old == first ? first->getNestedCallback() : first);
-        if (tile && old && old == first && old->isFor(*tile)) return;
-        if (old) removeRival(node, *old);
-        if (!tile || !tile->shownBin().valid()) return;
-        node.setCullCallback(new RivalCullCallback(*tile, _options));
-        node.setCullingActive(false);
-        ++placed;
-    }
-
-    const RivalOptions& _options;
-};
+    support::visitNodes(scene, [&](osg::Node& node, osg::NodeVisitor&) {
+        placed += place(node, options) ? 1U : 0U;
+        return !dynamic_cast<osg::Geode*>(&node);
+    });
+    return placed;
+}
 
 /// Follows what is paged in.
 class Follower final : public osg::NodeCallback {
@@ -74,8 +54,7 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
         // the kit may renew its callbacks meanwhile
         traverse(node, visitor);
-        RivalPlacer placer(_options);
-        node->accept(placer);
+        (void)placeAll(*node, _options);
     }
 
 private:
@@ -106,9 +85,7 @@ std::size_t installRivals(osg::Node& root, const RivalOptions& options) {
     tileByTile->setNestedCallback(root.getCullCallback());
     root.setCullCallback(tileByTile);
     root.addUpdateCallback(new Follower(options));
-    RivalPlacer placer(options);
-    root.accept(placer);
-    return placer.placed;
+    return placeAll(root, options);
 }
 
 }  // namespace osgAnalyticBin::rivals
