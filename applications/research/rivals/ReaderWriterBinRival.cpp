@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "InstallRivals.h"
+#include "Rivals.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/NameParameters.h>

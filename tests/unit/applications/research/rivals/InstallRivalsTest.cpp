@@ -5,9 +5,8 @@
 // tile's bin, and what the kit draws of the same database. The rules themselves: ComparisonBinsTest.cpp,
 // BoxBinsTest.cpp.
 
-#include "InstallRivals.h"
 #include "PagedFlight.h"
-#include "RivalCullCallback.h"
+#include "Rivals.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>

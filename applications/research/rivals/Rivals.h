@@ -6,7 +6,6 @@
 #include "BoxBins.h"
 #include "ComparisonBins.h"
 #include "HorizonPoint.h"
-#include "InstallRivals.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -18,9 +17,26 @@
 #include <osg/NodeVisitor>
 
 #include <optional>
+#include <string>
 #include <variant>
 
 namespace osgAnalyticBin::rivals {
+
+/// Rules for culling that others use or have published, to be compared with bins.
+enum class Rule {
+    Paper,       ///< the published nine-point rule: unsound
+    Corners,     ///< the eight corners of the bin: unsound
+    Box,         ///< the bin's box along the axes of ECEF: sound
+    OrientedBox  ///< the bin's box along east, north and up, and a horizon point: sound
+};
+
+/// How a rule culls.
+struct RivalOptions {
+    Rule rule = Rule::Paper;
+    bool usesHorizon = false;  ///< of the lowest surface shown, as the kit finds it
+    bool testsEdges = false;   ///< also against edges of the frustum; boxes: by their faces
+    std::string binOptions;    ///< those for the kit, which finds the tiles and their bins
+};
 
 /// Culls a tile by one of the rules in place of the kit's own callback, which is nested in it and not run: it says what
 /// the tile's bin is. What is nested in the kit's callback runs when the tile is kept.
@@ -35,9 +51,6 @@ public:
     [[nodiscard]] bool isFor(const AnalyticBinCullCallback& tile) const;
 
     bool run(osg::Object* object, osg::Object* data) override;
-
-protected:
-    ~RivalCullCallback() override = default;
 
 private:
     using RivalBin = std::variant<PaperBin, CornersBin, Box>;
@@ -57,5 +70,11 @@ private:
     bool _isInEcef;
     osg::Matrixd _fromEcef;
 };
+
+/// Culls the tiles of a database by a rule in place of the bins that the kit has installed on it, those that are paged
+/// in later from the update traversal on in which they arrive. The root's callbacks see to that; nothing takes the rule
+/// off again. `root`: the node that installBins() was called for.
+/// Returns: how many tiles have the rule now.
+std::size_t installRivals(osg::Node& root, const RivalOptions& options);
 
 }  // namespace osgAnalyticBin::rivals
