@@ -4,7 +4,7 @@
 #include "ImageMosaic.h"
 
 #include "RasterLayer.h"
-#include "TileMesh.h"
+#include "Tile.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>

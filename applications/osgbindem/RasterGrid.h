@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "Degrees.h"
+#include "TileLayout.h"
 
 #include <algorithm>
 #include <array>

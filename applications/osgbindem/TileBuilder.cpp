@@ -5,7 +5,7 @@
 
 #include "Interruption.h"
 #include "ModuleFolder.h"
-#include "TileNode.h"
+#include "Tile.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 

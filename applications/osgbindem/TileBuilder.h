@@ -8,7 +8,7 @@
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
-#include "TileMesh.h"
+#include "Tile.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 

@@ -11,9 +11,8 @@
 
 #include <osg/Node>
 
+#include <Tile.h>
 #include <TileLayout.h>
-#include <TileMesh.h>
-#include <TileNode.h>
 #include <cstdint>
 
 namespace osgAnalyticBin::globe {

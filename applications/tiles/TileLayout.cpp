@@ -3,8 +3,6 @@
 
 #include "TileLayout.h"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace osgAnalyticBin::tiles {
@@ -93,7 +91,7 @@ int TileLayout::levelFor(double resolutionDeg, int cells) noexcept {
     return level;
 }
 
-TileLayout::TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+TileLayout::TileLayout(int cells, int deepestLevel, const core::Ellipsoid& ellipsoid,
                        const std::optional<RectDeg>& region)
     : _cells(cells), _deepestLevel(deepestLevel), _region(region), _ellipsoid(ellipsoid) {
     constexpr std::size_t kMostStartTiles = 16;
@@ -125,7 +123,7 @@ PositionDeg TileLayout::position(PostId post) const noexcept {
             -180.0 + 360.0 * static_cast<double>(column) / static_cast<double>(columns)};
 }
 
-osgAnalyticBin::core::Geodetic TileLayout::geodetic(PostId post, double altitude) const noexcept {
+core::Geodetic TileLayout::geodetic(PostId post, double altitude) const noexcept {
     const double columns = std::ldexp(TileId::kStartColumns * _cells, post.level);
     const double longitudeDeg = -180.0 + 360.0 * static_cast<double>(post.column) / columns;
     return {position(post).latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude};

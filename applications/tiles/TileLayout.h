@@ -3,16 +3,49 @@
 
 #pragma once
 
-#include "Degrees.h"
-
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::tiles {
+
+struct PositionDeg {
+    double latitudeDeg = 0.0;
+    double longitudeDeg = 0.0;
+};
+
+struct RectDeg {
+    double west = 0.0;
+    double south = 0.0;
+    double east = 0.0;
+    double north = 0.0;
+
+    /// The same rectangle with a border on all sides, cut at the poles.
+    [[nodiscard]] RectDeg grownBy(double borderDeg) const noexcept {
+        return {west - borderDeg, std::max(south - borderDeg, -90.0), east + borderDeg,
+                std::min(north + borderDeg, 90.0)};
+    }
+
+    /// The same area, moved by whole turns so that it lies next to the other one.
+    [[nodiscard]] RectDeg turnedTo(const RectDeg& other) const noexcept {
+        const double turn = 360.0 * std::round((0.5 * (other.west + other.east) - 0.5 * (west + east)) / 360.0);
+        return {west + turn, south, east + turn, north};
+    }
+
+    /// The area in square degrees that the rectangles have in common, longitudes modulo 360.
+    [[nodiscard]] double overlap(const RectDeg& other) const noexcept {
+        const double height = std::min(north, other.north) - std::max(south, other.south);
+        double width = 0.0;
+        for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0})
+            width += std::max(0.0, std::min(east + turn, other.east) - std::max(west + turn, other.west));
+        return width * std::max(0.0, height);
+    }
+};
 
 /// The edges of a tile, in the order in which everything that has four of them keeps them.
 enum class Edge : std::size_t { South, North, West, East };
@@ -73,7 +106,7 @@ public:
     [[nodiscard]] static int levelFor(double resolutionDeg, int cells) noexcept;
 
     /// `region`: all that is refined, the whole globe without.
-    TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+    TileLayout(int cells, int deepestLevel, const core::Ellipsoid& ellipsoid,
                const std::optional<RectDeg>& region = std::nullopt);
 
     /// The level of the coarsest tiles: 0 for a globe; for a region the deepest of which few tiles cover it.
@@ -91,7 +124,7 @@ public:
     [[nodiscard]] int cells() const noexcept { return _cells; }
     [[nodiscard]] int posts() const noexcept { return _cells + 1; }
     [[nodiscard]] int deepestLevel() const noexcept { return _deepestLevel; }
-    [[nodiscard]] const osgAnalyticBin::core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
+    [[nodiscard]] const core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
     [[nodiscard]] double spacingDeg(int level) const noexcept;
 
     /// The post's position, with the same bits at every level that has the post. Columns count round the globe;
@@ -99,7 +132,7 @@ public:
     [[nodiscard]] PositionDeg position(PostId post) const noexcept;
 
     /// The same position without going round the globe: -180 and 180 are two longitudes.
-    [[nodiscard]] osgAnalyticBin::core::Geodetic geodetic(PostId post, double altitude) const noexcept;
+    [[nodiscard]] core::Geodetic geodetic(PostId post, double altitude) const noexcept;
 
     /// The south-west post of a tile, in the grid of a level at or below the tile's.
     [[nodiscard]] PostId firstPost(const TileId& tile, int level) const noexcept;
@@ -115,7 +148,7 @@ private:
     std::optional<RectDeg> _region;
     int _startLevel = 0;
     std::vector<TileId> _startTiles;
-    osgAnalyticBin::core::Ellipsoid _ellipsoid;
+    core::Ellipsoid _ellipsoid;
 };
 
 }  // namespace osgAnalyticBin::tiles

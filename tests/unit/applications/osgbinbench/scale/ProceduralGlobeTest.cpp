@@ -12,8 +12,8 @@
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 
+#include <Tile.h>
 #include <TileFixture.h>
-#include <TileNode.h>
 #include <algorithm>
 #include <cmath>
 #include <support/Random.h>

@@ -4,17 +4,39 @@
 #pragma once
 
 #include "TerrainGrid.h"
+#include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
+#include <glm/vec3.hpp>
+#include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
+#include <osg/Group>
 #include <osg/Image>
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace osgAnalyticBin::tiles {
+
+/// What the grid of a tile is apart from its heights: its size, and its place among the posts of its level.
+[[nodiscard]] TerrainGrid gridWithoutHeights(const TileLayout& layout, const TileId& tile);
+
+/// The lowest and the highest of a tile's own posts.
+[[nodiscard]] core::Interval heightsOf(const TerrainGrid& grid);
+
+/// Sets the grid's origin to its middle, halfway between its lowest and its highest post. Requires: it has heights.
+void placeOrigin(TerrainGrid& grid, const TileLayout& layout, int level);
+
+/// Makes the root node of a globe, without tiles. Lights take the colours of the vertices. `wkt`: the reference system.
+[[nodiscard]] osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const core::Ellipsoid& ellipsoid,
+                                                               const std::string& wkt);
+
+/// Declares the altitude below which nothing is drawn, so that the globe hides what is behind it. Requires: the tiles
+/// below the root have stored bins.
+void declareHorizon(osg::Group& root);
 
 /// Gives the grid a texture of this size, or the colours of the relief for 0.
 void colour(TerrainGrid& grid, int textureSize);
@@ -50,5 +72,22 @@ struct MeshExtent {
 
 /// Of the grid's mesh as its float vertices draw it. Guarantee: see MeshBounds; the margin covers vertices at the axis.
 [[nodiscard]] MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& triangles);
+
+/// Puts the geometry at its place on the globe.
+[[nodiscard]] osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef);
+
+/// What the node of a tile needs to know.
+struct TileFacts {
+    AnalyticBin bin;
+    /// Metres: the mesh draws nothing lower, skirts left out.
+    double surfaceLow;
+    const TileLayout& layout;
+    double lodFactor;
+    /// Of the children, seen from the file that has the tile; empty for a tile without children.
+    std::string childrenFile;
+};
+
+/// A PagedLOD, or a Group for a tile without children, that carries the bin.
+[[nodiscard]] osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, const TileFacts& facts);
 
 }  // namespace osgAnalyticBin::tiles
