@@ -4,7 +4,6 @@
 #include "BenchViewer.h"
 
 #include "Failure.h"
-#include "WithoutAnisotropy.h"
 
 namespace osgAnalyticBin::bench {
 

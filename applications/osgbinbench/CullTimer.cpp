@@ -3,7 +3,7 @@
 
 #include "CullTimer.h"
 
-#include "Interruption.h"
+#include "Failure.h"
 #include "Quantiles.h"
 
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "Bench.h"
 #include "BenchViewer.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "MethodScene.h"
 #include "ProgressLine.h"
 #include "Quantiles.h"

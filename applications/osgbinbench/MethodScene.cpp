@@ -5,7 +5,6 @@
 
 #include "CsvTable.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "Nodes.h"
 
 #include <osgDB/DatabasePager>

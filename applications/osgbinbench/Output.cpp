@@ -5,7 +5,7 @@
 
 #include "CullMethod.h"
 #include "DiagramScripts.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "Table.h"
 #include "TextFile.h"
 #include "ThreadingName.h"

@@ -5,7 +5,6 @@
 #include "BenchViewer.h"
 #include "CullTimer.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "MethodScene.h"
 #include "PictureDifference.h"
 #include "ProgressLine.h"

@@ -3,7 +3,7 @@
 
 #include "Bench.h"
 #include "Compare.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "ModuleFolder.h"
 #include "Output.h"
 #include "ProgramRun.h"
@@ -19,12 +19,7 @@
 
 namespace {
 
-using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::kFailed;
-using osgAnalyticBin::support::kInterrupted;
-using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::stopRequested;
-using osgAnalyticBin::support::writeFile;
+using namespace osgAnalyticBin::support;
 
 using namespace osgAnalyticBin::bench;
 using osgAnalyticBin::flight::CameraPose;

@@ -4,7 +4,6 @@
 #include "Commands.h"
 #include "DiskFile.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "Nodes.h"
 #include "Progress.h"
 #include "TextFile.h"
@@ -37,10 +36,7 @@
 namespace osgbinconv {
 
 namespace fs = std::filesystem;
-using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::findCallback;
-using osgAnalyticBin::support::throwIfStopRequested;
-using osgAnalyticBin::support::UsageError;
+using namespace osgAnalyticBin::support;
 
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::BinIndex;

@@ -5,7 +5,6 @@
 #include "Commands.h"
 #include "DiskFile.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "Progress.h"
 #include "RecordStream.h"
 

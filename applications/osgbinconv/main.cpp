@@ -4,7 +4,6 @@
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
 
@@ -20,11 +19,7 @@
 
 namespace {
 
-using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::Interrupted;
-using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::UsageError;
+using namespace osgAnalyticBin::support;
 
 using osgbinconv::DatabaseFiles;
 

@@ -4,7 +4,7 @@
 #include "DatabaseBuilder.h"
 
 #include "DiskFile.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "ProgramRun.h"
 #include "RasterFile.h"
 

@@ -4,7 +4,7 @@
 #include "DatabaseFolder.h"
 
 #include "Checksum.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "RecordStream.h"
 #include "TileBuilder.h"
 

@@ -3,7 +3,7 @@
 
 #include "DemMosaic.h"
 
-#include "Interruption.h"
+#include "Failure.h"
 #include "RasterLayer.h"
 
 #include <algorithm>

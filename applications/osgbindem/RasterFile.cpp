@@ -3,7 +3,7 @@
 
 #include "RasterFile.h"
 
-#include "Interruption.h"
+#include "Failure.h"
 
 #include <gdal_alg.h>
 

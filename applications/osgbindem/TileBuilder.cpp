@@ -3,7 +3,7 @@
 
 #include "TileBuilder.h"
 
-#include "Interruption.h"
+#include "Failure.h"
 #include "ModuleFolder.h"
 #include "Tile.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseBuilder.h"
-#include "Interruption.h"
+#include "Failure.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
 

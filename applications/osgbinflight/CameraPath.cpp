@@ -23,12 +23,10 @@
 
 namespace osgAnalyticBin::flight {
 
-using support::Failure;
+using namespace support;
 
 namespace {
 
-using support::kDegreesPerRadian;
-using support::kRadiansPerDegree;
 // Far beyond the moon, and far from where a double stops to resolve metres.
 constexpr double kLargestDistance = 1e12;
 constexpr double kLowestAltitude = -6.3e6;

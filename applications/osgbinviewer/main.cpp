@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "FrameCapture.h"
 #include "Handlers.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
@@ -8,7 +9,6 @@
 #include "Steps.h"
 #include "Traffic.h"
 #include "ViewTools.h"
-#include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>

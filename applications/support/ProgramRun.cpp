@@ -4,7 +4,6 @@
 #include "ProgramRun.h"
 
 #include "Failure.h"
-#include "Interruption.h"
 
 #include <exception>
 #include <iostream>

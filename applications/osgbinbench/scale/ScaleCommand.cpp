@@ -45,9 +45,7 @@ using bench::MethodScene;
 using flight::CameraPose;
 using report::Diagram;
 using report::Json;
-using support::Failure;
-using support::kRadiansPerDegree;
-using support::UsageError;
+using namespace support;
 using Scenes = std::vector<std::unique_ptr<MethodScene>>;
 using PagedLods = std::vector<osg::ref_ptr<osg::PagedLOD>>;
 

@@ -22,10 +22,7 @@ namespace osgAnalyticBin::paper {
 namespace {
 
 using report::Diagram;
-using support::kDegreesPerRadian;
-using support::kPi;
-using support::kRadiansPerDegree;
-using support::withDecimals;
+using namespace support;
 using Polyline = std::vector<glm::dvec3>;
 using Polylines = std::vector<Polyline>;
 /// Where a point is drawn: of its shares of a bin, from 0 to 1, or in ECEF.

@@ -15,10 +15,7 @@
 
 namespace {
 
-using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::writeFile;
+using namespace osgAnalyticBin::support;
 
 using namespace osgAnalyticBin::paper;
 

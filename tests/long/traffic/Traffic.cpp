@@ -8,7 +8,6 @@
 
 #include "CameraView.h"
 #include "FrameCapture.h"
-#include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 

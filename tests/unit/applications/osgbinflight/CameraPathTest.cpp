@@ -5,8 +5,6 @@
 // format itself is tested here too.
 
 #include "CameraPath.h"
-#include "Failure.h"
-#include "FlightOptions.h"
 
 #include <osgAnalyticBin/NameParameters.h>
 
@@ -157,21 +155,6 @@ TEST(NameParameters, AreWhatStandsInTheLastBrackets) {
           {"(levels=12)", "", "levels=12"}}) {
         EXPECT_EQ(nameParametersFrom(text).name, name);
         EXPECT_EQ(nameParametersFrom(text).parameters, parameters);
-    }
-}
-
-TEST(FlightOptions, ReadsEveryParameterAndPassesOverThoseOfOtherPlugins) {
-    FlightOptions options;
-    readBracketed(options.parameters(), "out=/tmp/a folder, frames=3 ,timeout=1.5");
-    EXPECT_EQ(options.out, "/tmp/a folder");
-    EXPECT_EQ(options.frames, 3);
-    EXPECT_EQ(options.timeout, 1.5);
-    readOptionString(options.parameters(), "method=sphere frames=7 dds_flip");
-    EXPECT_EQ(options.frames, 7);
-    EXPECT_THROW(readOptionString(options.parameters(), "method=sphere frames=seven"), support::Failure);
-    for (const char* const bad : {"speed=3", "frames=0", "frames=1.5", "frames=many", "timeout=-1", "out=", "frames"}) {
-        const std::string error = test::failureOf([&] { readBracketed(options.parameters(), bad); });
-        EXPECT_NE(error.find(bad), std::string::npos) << error;
     }
 }
 

@@ -3,7 +3,6 @@
 
 #include "CommandLine.h"
 #include "Failure.h"
-#include "Interruption.h"
 #include "ProgramRun.h"
 
 #include <gtest/gtest.h>
