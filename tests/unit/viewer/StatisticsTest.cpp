@@ -4,7 +4,7 @@
 //
 // Counts of tiles in a viewer that draws. Oracle: a survey of the same frame.
 
-#include "DrawnViewer.h"
+#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>

@@ -5,7 +5,7 @@
 // What a camera's cull traversal came to. Oracles: the counters and the render graph of a traversal that was not
 // watched; tiles whose verdict can be told by hand.
 
-#include "ViewerScene.h"
+#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>

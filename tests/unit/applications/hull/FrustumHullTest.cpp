@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The reverse test. HullSoundness.cpp tests bins with a point that is inside the frustum by long double, and
-// BoxBinsTest.cpp that frusta beyond a face are found.
+// RivalBinsTest.cpp that frusta beyond a face are found.
 
 #include "FrustumHull.h"
 

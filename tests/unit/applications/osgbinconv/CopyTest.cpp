@@ -3,9 +3,7 @@
 //
 // Copies of databases with bins inside: the same meshes, the bins of the index, and nothing of the original touched.
 
-#include "BinconvRuns.h"
-#include "Databases.h"
-#include "DrawnDatabase.h"
+#include "Binconv.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>

@@ -3,8 +3,7 @@
 //
 // osgbinconv reads unusual databases, and answers what it cannot do with one clear line.
 
-#include "BinconvRuns.h"
-#include "Databases.h"
+#include "Binconv.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 

@@ -4,9 +4,7 @@
 // What osgbinconv puts into an index, for databases of four makes and for maps. Oracles: samples of the triangles that
 // OpenSceneGraph draws, tile by tile; the heights that a map was made of.
 
-#include "BinconvRuns.h"
-#include "Databases.h"
-#include "DrawnDatabase.h"
+#include "Binconv.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/InstallBins.h>

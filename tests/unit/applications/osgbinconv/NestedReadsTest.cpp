@@ -4,8 +4,7 @@
 // What a file of a database names besides the tiles that it pages: osgbinconv opens none of it outside of the
 // database's folder, on no server, and what is inside as OSG does.
 
-#include "BinconvRuns.h"
-#include "Databases.h"
+#include "Binconv.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 

@@ -3,8 +3,7 @@
 //
 // osgbinconv writes the same bytes with any number of threads, and after it was killed and started again.
 
-#include "BinconvRuns.h"
-#include "Databases.h"
+#include "Binconv.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,88 @@
 
 #include "RasterFile.h"
 
+#include <osg/Texture2D>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+constexpr int kNodata = 7;
+using Bands = std::array<std::vector<double>, 4>;
+
+/// Index 1 is the colour, index 0 the hole.
+void writePalette(GDALRasterBand& band, const Bands& bands) {
+    std::vector<double> indices;
+    GDALColorTable table;
+    for (std::size_t i = 0; i < bands[3].size(); ++i) {
+        indices.push_back(bands[3][i] > 0 ? 1 : 0);
+        const auto part = [&](std::size_t c) { return static_cast<short>(bands[c][i]); };
+        const GDALColorEntry entry{part(0), part(1), part(2), 255};
+        if (indices.back() == 1) table.SetColorEntry(1, &entry);
+    }
+    band.SetNoDataValue(0.0);
+    band.SetColorTable(&table);
+    OpenRaster::write(band, indices);
+}
+
+}  // namespace
+
+TestImage::TestImage(double westDeg, double northDeg, double pixelDeg, int side, const Colour& colour)
+    : west(westDeg), north(northDeg), spacingDeg(pixelDeg), pixels(side) {
+    colourAt = [colour](double, double) { return colour; };
+}
+
+TestImage TestImage::globe(double spacingDeg, const Colour& colour) {
+    return {-180.0, 90.0, spacingDeg, static_cast<int>(std::lround(360.0 / spacingDeg)), colour};
+}
+
+std::string TestImage::write(const std::string& path) const {
+    const int rows = std::min(pixels, static_cast<int>(std::lround((north + 90.0) / spacingDeg)));
+    Bands bands;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < pixels; ++column) {
+            const auto colour = colourAt(north - (row + 0.5) * spacingDeg, west + (column + 0.5) * spacingDeg);
+            for (std::size_t c = 0; c < 3; ++c) bands[c].push_back(colour ? (*colour)[c] : kNodata);
+            bands[3].push_back(colour ? 255 : 0);
+        }
+    }
+    CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", "YES");
+    const int count = hole == Hole::Palette ? 1 : hole == Hole::Alpha ? 4 : 3;
+    const OpenRaster file(path, {pixels, rows, count}, GDT_Byte, west, north, spacingDeg, spacingDeg);
+    if (hole == Hole::Alpha) file.band(4).SetColorInterpretation(GCI_AlphaBand);
+    if (hole == Hole::Mask) file->CreateMaskBand(GMF_PER_DATASET);
+    if (hole == Hole::Palette) writePalette(file.band(), bands);
+    for (int band = 1; band <= 3 && hole != Hole::Palette; ++band) {
+        if (hole == Hole::Nodata) file.band(band).SetNoDataValue(kNodata);
+        OpenRaster::write(file.band(band), bands[static_cast<std::size_t>(band - 1)]);
+    }
+    if (hole == Hole::Alpha) OpenRaster::write(file.band(4), bands[3]);
+    if (hole == Hole::Mask) OpenRaster::write(*file.band().GetMaskBand(), bands[3]);
+    return path;
+}
+
+const osg::Image* textureOf(const LoadedTile& tile) {
+    const osg::StateSet* state = tile.geometry->getStateSet();
+    const osg::StateAttribute* texture = state ? state->getTextureAttribute(0, osg::StateAttribute::TEXTURE) : nullptr;
+    return texture ? dynamic_cast<const osg::Texture2D&>(*texture).getImage() : nullptr;
+}
+
+Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg) {
+    return shownAt(database.leafAt(latitudeDeg, longitudeDeg), latitudeDeg, longitudeDeg);
+}
+
+Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg) {
+    const osg::Image* image = textureOf(tile);
+    if (!image) throw std::runtime_error("no texture there");
+    const Rect rect = tile.rect();
+    const auto texel = [&](double share) { return static_cast<unsigned int>(std::lround(share * (image->s() - 1))); };
+    const unsigned char* shown = image->data(texel((longitudeDeg - rect.west) / (rect.east - rect.west)),
+                                             texel((latitudeDeg - rect.south) / (rect.north - rect.south)));
+    return {shown[0], shown[1], shown[2]};
+}
+
 using osgAnalyticBin::test::Modules;
 using osgAnalyticBin::test::quoted;
 

@@ -6,11 +6,10 @@
 // (Xvfb will do); skipped where no graphics context can be made.
 
 #include "CsvTable.h"
-#include "DrawnViewer.h"
 #include "Handlers.h"
 #include "Traffic.h"
 #include "ViewTools.h"
-#include "ViewerScene.h"
+#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBins.h>

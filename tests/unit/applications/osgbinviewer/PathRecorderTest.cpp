@@ -5,7 +5,7 @@
 
 #include "CameraView.h"
 #include "Handlers.h"
-#include "ViewerScene.h"
+#include "ViewerFixture.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 //
 // Slabs as they are drawn. Oracle: the mapping's inverse, point by point.
 
-#include "DrawnViewer.h"
 #include "Slab.h"
 #include "ViewTools.h"
+#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Databases that are culled by the rules of the paper and of other programs. Oracles: the rule's own verdict on each
-// tile's bin, and what the kit draws of the same database. The rules themselves: ComparisonBinsTest.cpp,
-// BoxBinsTest.cpp.
+// tile's bin, and what the kit draws of the same database. The rules themselves:
+// RivalBinsTest.cpp.
 
 #include "PagedFlight.h"
 #include "Rivals.h"

@@ -1,14 +1,20 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DrawnViewer.h"
+#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
+#include <osg/CoordinateSystemNode>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 #include <osgText/Text>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderLeaf>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
 
+#include <cmath>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {
@@ -103,6 +109,65 @@ std::vector<std::string> DrawnViewer::texts(osg::Node& node) {
     } reader;
     node.accept(reader);
     return reader.found;
+}
+
+namespace {
+
+void collect(const osgUtil::StateGraph& graph, std::map<const osg::Drawable*, osg::Matrixd>& drawn) {
+    for (const auto& leaf : graph._leaves) drawn[leaf->getDrawable()] = *leaf->_modelview;
+    for (const auto& child : graph._children) collect(*child.second, drawn);
+}
+
+}  // namespace
+
+ViewerScene::ViewerScene(const CullOptions& options)
+    : _database(osgDB::readRefNodeFile(writeSyntheticDatabase(_folder.path()))),
+      _camera(new osg::Camera),
+      _stamp(new osg::FrameStamp) {
+    installBins(*_database, options);
+    _camera->addChild(_database);
+    _camera->setViewport(0, 0, 400, 400);
+    _camera->setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+    _stamp->setFrameNumber(1);
+}
+
+void ViewerScene::lookFrom(double latitudeDeg, double longitudeDeg, double altitude, double pitchDeg, double fovDeg) {
+    osg::Matrixd toWorld;
+    const osg::EllipsoidModel wgs84;
+    wgs84.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(latitudeDeg),
+                                                        osg::DegreesToRadians(longitudeDeg), altitude, toWorld);
+    const double pitch = osg::DegreesToRadians(pitchDeg);
+    const osg::Vec3d sight(0.0, std::sin(pitch), -std::cos(pitch)), up(0.0, std::cos(pitch), std::sin(pitch));
+    _camera->setViewMatrix(osg::Matrixd::inverse(toWorld) * osg::Matrixd::lookAt(osg::Vec3d(), sight, up));
+    _camera->setProjectionMatrixAsPerspective(fovDeg, 1.0, 1000.0, 1e8);
+}
+
+std::map<const osg::Drawable*, osg::Matrixd> ViewerScene::cull() {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    stage->setViewport(_camera->getViewport());
+    stage->setCamera(_camera);
+    visitor->setStateGraph(graph);
+    visitor->setRenderStage(stage);
+    visitor->setFrameStamp(_stamp);
+    visitor->setTraversalNumber(_stamp->getFrameNumber());
+    visitor->inheritCullSettings(*_camera);
+    visitor->pushViewport(_camera->getViewport());
+    visitor->pushProjectionMatrix(new osg::RefMatrix(_camera->getProjectionMatrix()));
+    visitor->pushModelViewMatrix(new osg::RefMatrix(_camera->getViewMatrix()), osg::Transform::ABSOLUTE_RF);
+    if (osg::Callback* callback = _camera->getCullCallback())
+        callback->run(_camera, visitor);
+    else
+        visitor->traverse(*_camera);
+    visitor->popModelViewMatrix();
+    visitor->popProjectionMatrix();
+    visitor->popViewport();
+    nearPlane = visitor->getCalculatedNearPlane();
+    farPlane = visitor->getCalculatedFarPlane();
+    std::map<const osg::Drawable*, osg::Matrixd> drawn;
+    collect(*graph, drawn);
+    return drawn;
 }
 
 }  // namespace osgAnalyticBin::test

@@ -4,13 +4,21 @@
 #pragma once
 
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
+#include <osg/Camera>
+#include <osg/Drawable>
+#include <osg/FrameStamp>
 #include <osg/GraphicsContext>
 #include <osg/Image>
+#include <osg/Matrixd>
+#include <osg/Node>
 #include <osgViewer/Viewer>
 
+#include <map>
+#include <set>
 #include <string>
 #include <support/TemporaryFolder.h>
 #include <vector>
@@ -53,6 +61,32 @@ protected:
     TemporaryFolder _folder;
     std::string _file;
     osgViewer::Viewer _viewer;
+};
+
+/// A camera without a window over the root tiles of a synthetic globe.
+class ViewerScene {
+public:
+    explicit ViewerScene(const CullOptions& options = {});
+
+    /// Looks from a place straight down or, with `pitchDeg`, so much above that towards north.
+    void lookFrom(double latitudeDeg, double longitudeDeg, double altitude, double pitchDeg, double fovDeg);
+
+    /// What one cull traversal of the camera leaves to draw, and where in eye space.
+    [[nodiscard]] std::map<const osg::Drawable*, osg::Matrixd> cull();
+
+    [[nodiscard]] osg::Camera& camera() { return *_camera; }
+    [[nodiscard]] osg::Node& database() { return *_database; }
+    [[nodiscard]] osg::FrameStamp& frameStamp() { return *_stamp; }
+
+    /// Near and far planes that the last cull() computed, metres.
+    double nearPlane = 0.0;
+    double farPlane = 0.0;
+
+private:
+    TemporaryFolder _folder;
+    osg::ref_ptr<osg::Node> _database;
+    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osg::FrameStamp> _stamp;
 };
 
 }  // namespace osgAnalyticBin::test
