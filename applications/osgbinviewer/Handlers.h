@@ -13,7 +13,7 @@
 #include <osg/Camera>
 #include <osg/Group>
 #include <osgGA/GUIEventHandler>
-#include <osgViewer/View>
+#include <osgViewer/Viewer>
 
 #include <functional>
 #include <map>
@@ -257,5 +257,10 @@ private:
     osg::Matrixd _lastView;
     std::vector<flight::CameraPose> _path;
 };
+
+/// Runs a viewer without a camera manipulator by a script, for pictures: see --steps. `poses` may be empty.
+/// Throws: std::runtime_error with one line for a step that cannot be understood or done.
+void runSteps(osgViewer::Viewer& viewer, SpyViewHandler& spy, const std::vector<flight::CameraPose>& poses,
+              const std::string& text);
 
 }  // namespace osgAnalyticBin::viewer

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Steps.h"
-
 #include "CameraView.h"
 #include "Failure.h"
 #include "FrameCapture.h"
+#include "Handlers.h"
 #include "ViewTools.h"
 
 #include <osg/Timer>

@@ -6,7 +6,6 @@
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
 #include "Settings.h"
-#include "Steps.h"
 #include "Traffic.h"
 #include "ViewTools.h"
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Figures.h"
-
 #include "Angles.h"
+#include "Experiment.h"
 #include "TextFile.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "CommandLine.h"
+#include "Experiment.h"
 #include "Failure.h"
-#include "Figures.h"
 #include "ProgramRun.h"
 #include "ProgressLine.h"
 #include "TextFile.h"
