@@ -66,22 +66,5 @@ TEST(FrustumHull, HasTheCornersOfItsView) {
     }
 }
 
-TEST(FrustumHull, NeedsUnitNormalsAndNumbers) {
-    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
-    const ReverseBin reverse(ExactGeodeticBin(wgs84(), bin), bin);
-    View view;
-    view.eye = {6.4e6, 0.0, 0.0};
-    view.halfWidth = 3.0;
-    Random random(326);
-    view.lookAlong({1.0, 0.0, 0.0}, random);
-    std::vector<Plane> planes = view.planes();
-    ASSERT_TRUE(isSeparated(reverse, FrustumHull(planes, 4)));
-    for (Plane& plane : planes) plane.normal *= 1.0 + 1e-6;
-    EXPECT_DEBUG_DEATH(EXPECT_EQ(FrustumHull(planes, 4).cornerCount(), 0u), "hasUnitNormal");
-    const Plane away{{1.0, 0.0, 0.0}, -1e8};
-    const std::vector<Plane> broken{away, away, {{kNaN, 0.0, 0.0}, 0.0}, {{0.0, 1.0, 0.0}, kNaN}};
-    EXPECT_FALSE(isSeparated(reverse, FrustumHull(broken, 4)));
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin::test

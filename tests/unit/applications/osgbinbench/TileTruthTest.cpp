@@ -63,18 +63,6 @@ osg::ref_ptr<osg::Camera> cameraAhead() {
     return camera;
 }
 
-TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
-    std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2), tileAt("behind", -0.5, -4),
-                                         tileAt("antipode", -0.5, 40)};
-    const auto camera = cameraAhead();
-    EXPECT_EQ(TileTruth().neededTiles(tiles, *camera, {kModel, osg::Matrixd()}).keys, std::set<std::string>{"ahead"});
-    // A globe that is moved takes its camera along.
-    const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
-    for (flight::DrawnTile& tile : tiles) tile.meshes[0].localToWorld = moved;
-    camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
-    EXPECT_EQ(TileTruth().neededTiles(tiles, *camera, {kModel, moved}).keys, std::set<std::string>{"ahead"});
-}
-
 TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
     std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2), tileAt("far", -0.5, 8)};
     TileTruth truth;

@@ -161,21 +161,6 @@ TEST(CrackFloor, IsAtTheWholeSkirtWhereAnythingMayBeBesideAndNowhereWithoutSkirt
     for (std::size_t i = 0; i < ofBare.size(); ++i) EXPECT_EQ(ofBare[i], bare.tiles[i].united);
 }
 
-// Ten times as many tiles take ten times as long, whatever lies in one place.
-TEST(CrackFloor, StackedTilesAreNotAllCompared) {
-    Random random(604);
-    for (const std::size_t count : {2000u, 20000u}) {
-        Forest forest;
-        for (std::size_t i = 0; i < count; ++i) forest.add(random, {0, 1, 1});
-        forest.unite();
-        std::size_t comparisons = 0;
-        const std::vector<AnalyticBin> bins = binsWithCracks(forest.tiles, &comparisons);
-        EXPECT_LE(comparisons, count * (kMostBeside + 10));
-        for (std::size_t i = 0; i < count; ++i)
-            ASSERT_EQ(bins[i].bin().altitude().lower, forest.tiles[i].skirtLow) << i;
-    }
-}
-
 // Each file pages the next below both of its tiles: the ways up are as many as two to the depth.
 TEST(CrackFloor, AncestorsAreMetOnceByHoweverManyWays) {
     constexpr std::uint32_t kDepth = 300;

@@ -7,20 +7,17 @@
 #include "Binconv.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>
 #include <osgDB/WriteFile>
 
-#include <PagedFlight.h>
 #include <PlanarMap.h>
 #include <TileFixture.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <support/Random.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
@@ -189,30 +186,6 @@ TEST_P(MapIndex, IsPrintedInMetres) {
     expectPrinted("8000 .. 64000 m in a map, some 4 levels");
     std::filesystem::remove(_file);
     expectPrinted("unknown without \"map.osgb\"");
-}
-
-// Without the index, tiles are as high as all terrain on earth.
-TEST_P(MapIndex, CullsAsDeclaredHeightsDoWithoutAny) {
-    const osg::ref_ptr<osg::Group> plain = _map.build(_folder.path());
-    const osg::ref_ptr<osg::Group> indexed = _map.build(_folder.path());
-    ASSERT_EQ(installBins(*indexed, optionsOf("occlusion=off"), _file), 1u);
-    PagedFlight spheres(*plain), bins(*indexed);
-    Random random(4820);
-    std::size_t withSpheres = 0, withBins = 0;
-    for (int i = 0; i < 40; ++i) {
-        const auto place = [&](double height) {
-            return _map.origin + osg::Vec3d(_map.size * random.uniform(), _map.size * random.uniform(), height);
-        };
-        const osg::Vec3d eye = place(random.uniform(3000.0, 8000.0));
-        const CullView view = CullView::lookAt(eye, place(0.0), {0, 0, 1}, random.uniform(10.0, 60.0));
-        ASSERT_TRUE(spheres.load(view));
-        ASSERT_TRUE(bins.load(view));
-        EXPECT_LE(bins.drawn().size(), spheres.drawn().size());
-        withSpheres += spheres.drawn().size();
-        withBins += bins.drawn().size();
-    }
-    EXPECT_GT(withBins, 100u);
-    EXPECT_LT(withBins, withSpheres);
 }
 
 INSTANTIATE_TEST_SUITE_P(Makes, MapIndex, ::testing::Values("terrain", "polygonal"),

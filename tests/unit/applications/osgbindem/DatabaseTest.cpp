@@ -80,19 +80,6 @@ TEST_F(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
     });
 }
 
-TEST_F(Database, LoadsFromAnyWorkingDirectory) {
-    fs::create_directory(file("deep"));
-    build({savedGlobe(1.0, hills), "--cells", "4", "--levels", "1", "-o", file("deep/earth.osgb")});
-    const fs::path before = fs::current_path();
-    fs::current_path(file("deep"));
-    EXPECT_EQ(loadDatabase("earth.osgb").deepestLevel(), 1);
-    fs::current_path(file("."));
-    EXPECT_EQ(loadDatabase("deep/earth.osgb").deepestLevel(), 1);
-    fs::current_path(before);
-    fs::rename(file("deep"), file("moved"));
-    EXPECT_EQ(loadDatabase(file("moved/earth.osgb")).deepestLevel(), 1);
-}
-
 TEST_F(Database, DeepTreesAreSpreadOverFolders) {
     build(
         {saved(TestRaster(10.0, 50.0, 0.0005, 20, hills)), "--cells", "4", "--levels", "12", "-o", file("earth.osgb")});
@@ -126,13 +113,6 @@ TEST_F(Database, OptionsChangeWhatTheySay) {
     EXPECT_EQ(moon.ellipsoid().polarRadius(), 1736000.0);
     EXPECT_EQ(moon.root->getCoordinateSystem(), "");
     checkDatabase(moon, raster);
-}
-
-TEST_F(Database, TheDefaultDepthFitsTheRaster) {
-    // 0.5 degrees: 45 cells in a start tile, made even.
-    const LoadedDatabase database = databaseOf({savedGlobe(0.5, flat(0.0))});
-    EXPECT_EQ(database.deepestLevel(), 0);
-    EXPECT_EQ(database.tiles[0].cells, 46);
 }
 
 TEST_F(Database, ARerunReplacesTheOldDatabaseWhenItIsToldTo) {
@@ -224,22 +204,6 @@ TEST(RealData, Etopo5) {
     // The Challenger Deep, in the tile at 135 .. 157.5 E, 0 .. 22.5 N, and all above it.
     EXPECT_LE(database.leafAt(11.3, 142.2).altitude().lower, -10376.0);
     EXPECT_LE(database.tiles[4 * 16 + 14].altitude().lower, -10376.0);
-}
-
-TEST(RealData, EverestWithVoids) {
-    const std::string path = SAMPLE_DATA "/dem/everest_srtm3_N27E086.tif";
-    OSGBINDEM_NEEDS(path);
-    const LoadedDatabase database = databaseOf({path, "--levels", "8", "-te", "86", "27", "87", "28"});
-    checkSharedPosts(database);
-    const TestRaster raster(path);
-    database.forEach([&](const LoadedTile& tile) {
-        const Range range = raster.range(tile.rect());
-        if (range.lower > range.upper) return;
-        EXPECT_GE(tile.altitude().upper, range.upper);
-        EXPECT_GT(tile.altitude().lower, -3000.0) << "a void is no height";
-    });
-    EXPECT_GE(database.leafAt(27.988, 86.925).altitude().upper, 8642.0);
-    EXPECT_LT(database.leafAt(27.988, 86.925).altitude().upper, 8650.0);
 }
 
 bool areEqual(const osg::Array* a, const osg::Array* b) {

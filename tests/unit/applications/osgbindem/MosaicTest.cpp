@@ -281,19 +281,6 @@ TEST_F(Voids, OfTheSeaStayTheSea) {
     EXPECT_EQ(alone(grid).height(grid.position(151, 100)), 0.0);
 }
 
-TEST_F(Voids, TheWayThroughThemDoesNotCount) {
-    const Grid grid(hills, 700, 0.01, rectangles(180, 120));
-    DemMosaic forward = over(TestRaster::globe(0.5, vague), grid);
-    DemMosaic backward = over(TestRaster::globe(0.5, vague), grid);
-    std::vector<double> heights;
-    for (int i = 0; i < 234 * 234; ++i) heights.push_back(forward.height(grid.position(3 * (i % 234), 3 * (i / 234))));
-    for (int i = 234 * 234 - 1; i >= 0; --i) {
-        if (i % 30 == 0) (void)backward.range({12.0, 45.0, 13.0, 46.0});
-        ASSERT_EQ(backward.height(grid.position(3 * (i % 234), 3 * (i / 234))), heights[static_cast<std::size_t>(i)])
-            << i;
-    }
-}
-
 TEST_F(Voids, HaveNoSeamBetweenBlocks) {
     // Posts 255 and 256 are in two blocks.
     const Grid grid(hills, 520, 0.002,

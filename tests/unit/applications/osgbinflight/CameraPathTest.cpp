@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Camera paths as text, and the names and parameters of the pseudo-loader. Oracle: values worked out by hand. The table
+// Camera paths as text, and the frames of a continuous flight. Oracle: values worked out by hand. The table
 // format itself is tested here too.
 
 #include "CameraPath.h"
-
-#include <osgAnalyticBin/NameParameters.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +13,6 @@
 #include <string>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
-#include <tuple>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -144,18 +141,6 @@ TEST(CameraPath, TheShippedPathsAreGoodTogetherAndNamedForTheirFiles) {
     }
     EXPECT_NO_THROW((void)readCameraPathFiles(files));
     EXPECT_GE(readCameraPathFiles({DEMO_PATH_FILE}).size(), 14u);
-}
-
-TEST(NameParameters, AreWhatStandsInTheLastBrackets) {
-    for (const auto& [text, name, parameters] :
-         {std::tuple("a.b/path.csv.(out=x (1)/y.z,frames=3)", "a.b/path.csv", "out=x (1)/y.z,frames=3"),
-          {"path.csv", "path.csv", ""},
-          {"earth (1)", "earth (1)", ""},
-          {"", "", ""},
-          {"(levels=12)", "", "levels=12"}}) {
-        EXPECT_EQ(nameParametersFrom(text).name, name);
-        EXPECT_EQ(nameParametersFrom(text).parameters, parameters);
-    }
 }
 
 constexpr double kTolerance = 1e-12;

@@ -25,7 +25,6 @@
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <support/StockPrograms.h>
@@ -126,28 +125,6 @@ TEST_F(Handlers, ScatterModelsThatTerrainMayHide) {
     _viewer.frame();
     ASSERT_EQ(models.getNumChildren(), kModels);
     EXPECT_GT((models.getBound().center() - before).length(), 5e4);
-}
-
-// Of the models on a globe, a view from above draws those in view alone.
-TEST_F(Handlers, CountTheModelsThatAreDrawn) {
-    const osg::ref_ptr<osg::Group> scene = wrapScene();
-    Traffic traffic(40);
-    scene->addChild(&traffic.models());
-    _viewer.getCamera()->setSmallFeatureCullingPixelSize(0.0f);
-    look(_viewer, 1.0);
-    drawUntilIdle(_viewer);
-    const osg::Vec3d eye = osg::Vec3d() * _viewer.getCamera()->getInverseViewMatrix();
-    traffic.scatter(*scene->getChild(0), eye, 6e5);
-    (void)traffic.takeDrawn();
-    _viewer.frame();
-    const unsigned int asking = traffic.takeDrawn();
-    traffic.setAsking(false);
-    _viewer.frame();
-    const unsigned int all = traffic.takeDrawn();
-    EXPECT_GT(asking, 0u);
-    EXPECT_LE(asking, all);
-    EXPECT_LT(all, 40u);
-    EXPECT_EQ(traffic.takeDrawn(), 0u);
 }
 
 // What a frozen camera draws, and where: CameraCullingTest.cpp.
@@ -387,43 +364,6 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
     EXPECT_GT(osgs.size(), 14u);
     for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key.substr(1)), 0u) << key << ": " << text;
     EXPECT_LT(ours.rbegin()->first, osgs.begin()->first) << "first in the help";
-}
-
-// CIE L*a*b*, with half the weight for lightness, which light and shadow change.
-osg::Vec3d seen(const osg::Vec4d& colour) {
-    const auto linear = [&](unsigned int i) {
-        return colour[i] <= 0.04045 ? colour[i] / 12.92 : std::pow((colour[i] + 0.055) / 1.055, 2.4);
-    };
-    const auto f = [&](double red, double green, double blue) {
-        const double t = red * linear(0) + green * linear(1) + blue * linear(2);
-        return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0;
-    };
-    const double x = f(0.4339, 0.3762, 0.1899), y = f(0.2126, 0.7152, 0.0722), z = f(0.0177, 0.1095, 0.8728);
-    return {0.5 * 116.0 * y, 500.0 * (x - y), 200.0 * (y - z)};
-}
-
-TEST(VerdictColours, LookLikeNoOtherOverTerrainOfAnyColour) {
-    constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Outside,    TileVerdict::Straddling,
-                                                   TileVerdict::Inside,     TileVerdict::Hidden,
-                                                   TileVerdict::BeyondEdge, TileVerdict::Occluded};
-    // deep and shallow sea, lowland, desert, mountains, snow, night, forest, and the window's background
-    const osg::Vec4d grounds[] = {{0.08, 0.2, 0.45, 1.0}, {0.5, 0.8, 1.0, 1.0},  {0.4, 0.6, 0.25, 1.0},
-                                  {0.75, 0.65, 0.4, 1.0}, {0.6, 0.4, 0.25, 1.0}, {1.0, 1.0, 1.0, 1.0},
-                                  {0.1, 0.1, 0.1, 1.0},   {0.25, 0.4, 0.2, 1.0}, {0.2, 0.2, 0.4, 1.0}};
-    for (const osg::Vec4d& ground : grounds) {
-        for (const TileVerdict verdict : kVerdicts) {
-            const double share = BinDisplayHandler::kOpacity;
-            const osg::Vec3d shown = seen(osg::Vec4d(verdictColour(verdict)) * share + ground * (1.0 - share));
-            const auto distance = [&](TileVerdict other) {
-                return (shown - seen(osg::Vec4d(verdictColour(other)))).length();
-            };
-            for (const TileVerdict other : kVerdicts) {
-                if (other == verdict) continue;
-                EXPECT_LT(distance(verdict), distance(other))
-                    << verdictName(verdict) << " looks like " << verdictName(other) << " over " << ground.r();
-            }
-        }
-    }
 }
 
 TEST(HomeView, HoldsTheWholeGlobeWithRoomInWindowsOfAnyShape) {

@@ -82,16 +82,5 @@ TEST(PathRecorder, HasNoPoseOfAnOrthographicViewOrThatOsgbinbenchRefuses) {
     EXPECT_FALSE(recordedPose(scene.camera(), 0.0));
 }
 
-TEST(PathRecorder, LeavesTheOldFileWhereTheNewCannotBeWritten) {
-    const std::string error = test::failureOf([] { flight::writeCameraPathFile("/no/such/folder/path.csv", {}); });
-    EXPECT_NE(error.find("/no/such/folder/path.csv"), std::string::npos);
-    test::TemporaryFolder folder;
-    ViewerScene scene;
-    const std::string file = folder.path() + "/path.csv";
-    flight::writeCameraPathFile(file, somePath(scene));
-    EXPECT_FALSE(flight::readCameraPathFiles({file}).empty());
-    EXPECT_FALSE(std::ifstream(file + ".tmp"));
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin::viewer

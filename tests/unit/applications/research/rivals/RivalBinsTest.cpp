@@ -78,29 +78,6 @@ TYPED_TEST(BoxBins, TouchTheBinOnAllSides) {
 
 const GeodeticBin kTile = GeodeticBin::fromDegrees({10.0, 11.0}, {20.0, 21.0}, {0.0, 100.0});
 
-TYPED_TEST(BoxBins, HoldTheMargin) {
-    const TypeParam bare(wgs84(), kTile), grown(wgs84(), kTile, 250.0);
-    for (std::size_t i = 0; i < TypeParam::kFaces; ++i)
-        EXPECT_NEAR(grown.face(i).offset - bare.face(i).offset, 250.0, 1e-5);
-}
-
-TYPED_TEST(BoxBins, KeepWhatHasNoClosedFormAndWhatIsNotANumber) {
-    const GeodeticBin deep = kTile.withAltitude({-6.4e6, 100.0});
-    const TypeParam box(wgs84(), deep);
-    Random random(404);
-    for (int i = 0; i < 1000; ++i) {
-        const glm::dvec3 normal = random.direction();
-        const RealVector point = geodeticToEcef(wgs84(), randomPosition(random, deep));
-        const Plane through{normal, static_cast<double>(-dot(real(normal), point))};
-        ASSERT_EQ(box.classify(through), Side::Straddling);
-    }
-    EXPECT_EQ(box.classify({{1.0, 0.0, 0.0}, -2e7}), Side::Outside);
-    const TypeParam tile(wgs84(), kTile);
-    EXPECT_EQ(tile.classify({{kNaN, 0.0, 0.0}, -1e8}), Side::Straddling);
-    EXPECT_EQ(tile.classify({{1.0, 0.0, 0.0}, kNaN}), Side::Straddling);
-    EXPECT_EQ(TypeParam(wgs84(), kTile, kNaN).classify({{1.0, 0.0, 0.0}, -1e8}), Side::Straddling);
-}
-
 TYPED_TEST(BoxBins, ReverseTestFindsAFrustumBeyondAFace) {
     Random random(406);
     int found = 0;
@@ -122,17 +99,6 @@ TYPED_TEST(BoxBins, ReverseTestFindsAFrustumBeyondAFace) {
         found += isSeparated(box, FrustumHull(planes, planes.size())) ? 1 : 0;
     }
     EXPECT_EQ(found, 1000);
-}
-
-TYPED_TEST(BoxBins, OfAMapAreTheBoxItself) {
-    const GeodeticBin bin({0.1, 0.2}, {0.3, 0.5}, {-10.0, 900.0});
-    const TypeParam box(Ellipsoid::plane(), bin, 1.0);
-    const core::QuadraticBin quadratic(core::GeodeticMapping(Ellipsoid::plane()), core::parameterBox(bin), 1.0);
-    Random random(4813);
-    for (int trial = 0; trial < 1000; ++trial) {
-        const Plane plane{random.direction(), random.uniform(-3e6, 3e6)};
-        EXPECT_EQ(box.classify(plane), quadratic.classify(plane));
-    }
 }
 
 constexpr double kTie = 1e-6;  // metres from a plane within which a verdict may go either way
@@ -326,21 +292,6 @@ TEST(HorizonPoint, IsThePublishedPoint) {
     EXPECT_GT(hidden, kTrials / 4);
     // The middle in latitude is not quite that of the scaled latitudes, and no sample may be the farthest point.
     EXPECT_LT(differences, kTrials / 500);
-}
-
-TEST(HorizonPoint, MissingInformationIsVisible) {
-    const auto eye = HorizonEye::fromEye(wgs84(), kPointDepth, {1e7, 0.0, 0.0});
-    ASSERT_TRUE(eye);
-    const auto behind = [](double halfWidthDeg, core::Interval altitude) {
-        return GeodeticBin::fromDegrees({-1.0, 1.0}, {180.0 - halfWidthDeg, 180.0 + halfWidthDeg}, altitude);
-    };
-    EXPECT_TRUE(pointOf(wgs84(), behind(1.0, {0.0, 1000.0})).isHiddenFrom(*eye));
-    EXPECT_FALSE(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}), kNaN).isHiddenFrom(*eye));
-    EXPECT_FALSE(pointOf(wgs84(), behind(1.0, {-4e6, 1000.0})).isHiddenFrom(*eye))
-        << "nearer the centre than altitudes go";
-    EXPECT_FALSE(pointOf(wgs84(), behind(95.0, {0.0, 1000.0})).isHiddenFrom(*eye)) << "wider than any point stands for";
-    EXPECT_FALSE(pointOf(wgs84(), GeodeticBin()).isHiddenFrom(*eye));
-    EXPECT_FALSE(pointOf(wgs84(), GeodeticBin::wholeGlobe({0.0, 1000.0})).isHiddenFrom(*eye));
 }
 
 }  // namespace
