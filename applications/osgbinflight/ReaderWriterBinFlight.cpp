@@ -95,7 +95,7 @@ public:
         osg::NodeVisitor* const visitor = data->asNodeVisitor();
         osgGA::EventVisitor* const events = visitor ? visitor->asEventVisitor() : nullptr;
         auto* const viewer = events ? dynamic_cast<osgViewer::Viewer*>(events->getActionAdapter()) : nullptr;
-        if (viewer && _phase != Phase::Over && isFrameEvent(*events)) flyOn(*viewer);
+        if (viewer && _phase && isFrameEvent(*events)) flyOn(*viewer);
         return traverse(object, data);
     }
 
@@ -105,28 +105,13 @@ protected:
     }
 
 private:
-    enum class Phase { Begin, Load, Time, Picture, Over };
+    // What is done at the next frame; nullptr: nothing any more.
+    using Phase = void (CameraFlight::*)(osgViewer::Viewer&);
 
-    // Each takes its phase one frame further.
     void flyOn(osgViewer::Viewer& viewer) {
         _frameNumber = viewer.getFrameStamp()->getFrameNumber();
-        switch (_phase) {
-            case Phase::Begin:
-                begin(viewer);
-                break;
-            case Phase::Load:
-                load(viewer);
-                break;
-            case Phase::Time:
-                time(viewer);
-                break;
-            case Phase::Picture:
-                picture(viewer);
-                break;
-            case Phase::Over:
-                break;
-        }
-        if (_phase != Phase::Over) setPose(*viewer.getCamera());
+        (this->*_phase)(viewer);
+        if (_phase) setPose(*viewer.getCamera());
     }
 
     void begin(osgViewer::Viewer& viewer) {
@@ -148,7 +133,7 @@ private:
         if (_idleFrames < kIdleFrames) return;
         _idleFrames = 0;
         _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
-        if (_record.tiles.wanted == 0) _phase = Phase::Time;
+        if (_record.tiles.wanted == 0) _phase = &CameraFlight::time;
     }
 
     // The frame before this one is culled by now, under every threading model.
@@ -163,7 +148,7 @@ private:
         _lastFrame = now;
         if (_cullMs.size() < static_cast<std::size_t>(_options.frames)) return;
         _capture->request(_frameNumber);
-        _phase = Phase::Picture;
+        _phase = &CameraFlight::picture;
     }
 
     void picture(osgViewer::Viewer& viewer) {
@@ -203,7 +188,7 @@ private:
     void setPose(osg::Camera& camera) const { placeCamera(camera, pose(), _globe); }
 
     void arrive() {
-        _phase = Phase::Load;
+        _phase = &CameraFlight::load;
         _arrival = osg::Timer::instance()->tick();
         _filesAtArrival = _reads->nodeFiles();
         _idleFrames = 0;
@@ -253,7 +238,7 @@ private:
 
     // The pager's threads have to be at rest before the Registry's callback may change.
     void stop(osgViewer::Viewer& viewer) {
-        _phase = Phase::Over;
+        _phase = nullptr;
         if (osgDB::DatabasePager* const pager = viewer.getDatabasePager()) pager->cancel();
         if (_reads) _reads->uninstall();
         _reads = nullptr;
@@ -268,7 +253,7 @@ private:
     osg::ref_ptr<ReadCounter> _reads;
     osg::ref_ptr<FrameCapture> _capture;
 
-    Phase _phase = Phase::Begin;
+    Phase _phase = &CameraFlight::begin;
     unsigned int _frameNumber = 0;
     osg::Timer_t _arrival = 0;
     std::uint64_t _filesAtArrival = 0;

@@ -51,14 +51,16 @@ AnalyticBin binOfTile(const osg::NodePath& path) {
     return callback ? callback->shownBin() : AnalyticBin();
 }
 
-}  // namespace
-
+// Whether the path's last node is a tile: a node with a stored bin, a PagedLOD, or what a page brings that is no
+// PagedLOD, as the leaves of VirtualPlanetBuilder are.
 bool isTile(const osg::NodePath& path) {
     osg::Node& node = *path.back();
     if (node.asDrawable()) return false;
     if (hasStoredBin(node) || dynamic_cast<const osg::PagedLOD*>(&node)) return true;
     return !isPlainGroup(node) && isOnPage(path);
 }
+
+}  // namespace
 
 std::uint64_t residentTiles(osg::Node& scene) {
     std::uint64_t count = 0;

@@ -43,10 +43,6 @@ struct Census : TileCounts {
     [[nodiscard]] std::set<std::string> keys() const;
 };
 
-/// Whether the path's last node is a tile: a node with a stored bin, a PagedLOD, or what a page brings that is no
-/// PagedLOD, as the leaves of VirtualPlanetBuilder are.
-[[nodiscard]] bool isTile(const osg::NodePath& path);
-
 /// How many tiles of a scene are in memory, shown or not. Cost: one traversal of all nodes.
 [[nodiscard]] std::uint64_t residentTiles(osg::Node& scene);
 

@@ -57,7 +57,7 @@ std::vector<flight::Parameter> GlobeOptions::parameters() {
             {"relief=0..20000", "Metres from the lowest terrain there may be to the highest (default: 8000)",
              flight::numberInto(relief, 0.0, kMostRelief)},
             {"lod=1..100", "Half diagonals of a tile from which on it is refined (default: 4)",
-             flight::numberInto(lod, kLeastLod, kMostLod)},
+             flight::numberInto(lod, 1.0, 100.0)},
             {"bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)", takeBins}};
 }
 

@@ -23,8 +23,6 @@ struct GlobeOptions {
     static constexpr int kMostLevels = 24;
     static constexpr int kMostCells = 64;
     static constexpr double kMostRelief = 20000.0;
-    static constexpr double kLeastLod = 1.0;
-    static constexpr double kMostLod = 100.0;
 
     [[nodiscard]] bool operator==(const GlobeOptions& other) const;
 

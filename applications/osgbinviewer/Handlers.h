@@ -175,8 +175,6 @@ protected:
     void draw(osgViewer::View& view, osg::Camera& camera) override;
 
 private:
-    void showChange(osg::Camera& camera, osg::FrameStamp& frameStamp);
-
     CullOptions _options;
     Method _methodBefore;
     TileCounts _countsBefore;

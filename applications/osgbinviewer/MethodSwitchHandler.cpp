@@ -59,10 +59,12 @@ void MethodSwitchHandler::setMethod(osgViewer::View& view, Method method) {
     _shownUntil = view.getFrameStamp()->getReferenceTime() + kSecondsShown;
 }
 
-void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+void MethodSwitchHandler::draw(osgViewer::View& view, osg::Camera& camera) {
+    if (_shownUntil < 0.0) return;
+    osg::FrameStamp& frameStamp = *view.getFrameStamp();
     if (frameStamp.getReferenceTime() > _shownUntil) {
-        _panel->hide();
-        return;
+        _shownUntil = -1.0;
+        return _panel->hide();
     }
     const TileCounts now = TileSurvey(camera, frameStamp).counts();
     // from elsewhere the difference says nothing of the method
@@ -77,12 +79,6 @@ void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frame
     add("kept", &TileCounts::kept);
     add("drawn", &TileCounts::drawn);
     _panel->show(camera, lines);
-}
-
-void MethodSwitchHandler::draw(osgViewer::View& view, osg::Camera& camera) {
-    if (_shownUntil < 0.0) return;
-    showChange(camera, *view.getFrameStamp());
-    if (!_panel->isShown()) _shownUntil = -1.0;
 }
 
 }  // namespace osgAnalyticBin::viewer

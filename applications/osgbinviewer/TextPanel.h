@@ -30,8 +30,6 @@ public:
     void show(osg::Camera& camera, const std::vector<Line>& lines);
     void hide();
 
-    [[nodiscard]] bool isShown() const { return _hud->getNodeMask() != 0; }
-
 private:
     const Corner _corner;
     const osg::ref_ptr<osg::Camera> _hud;
