@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Databases of VirtualPlanetBuilder, and the camera path that was made for them. Skipped where the samples are absent.
+// Databases of VirtualPlanetBuilder, and a camera path that was made for one of them. Skipped where the samples are
+// absent.
 
 #include "BenchProgram.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <support/TemporaryFolder.h>
-#include <tuple>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -63,45 +61,6 @@ TEST_F(Vpb, StockMethodsDifferInWhatTheyDrawAndAskFor) {
         }
         expectNothingLost(methods["sphere"]);
         EXPECT_LE(methods["none"]["visible_tiles"], methods["none"]["truth_tiles"]);
-    }
-}
-
-// Every fourth pose of the path; with exaggerated mountains eyes below 30 km are lifted above them.
-std::string shortPath(int scale) {
-    constexpr std::size_t kAltitude = 3, kNear = 8, kFar = 9;
-    std::ifstream in(VPB_PATH_FILE);
-    std::string text;
-    int poses = 0;
-    for (std::string line; std::getline(in, line);) {
-        const bool isHead = line.rfind('#', 0) == 0 || line.rfind("name", 0) == 0;
-        if (!isHead && poses++ % 4 != 0) continue;
-        std::vector<std::string> cells;
-        std::istringstream parts(line);
-        for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-        if (!isHead && scale > 1 && std::stod(cells[kAltitude]) < 30000.0) {
-            cells[kAltitude] = "30000";
-            cells[kNear] = "750";
-            cells[kFar] = "1600000";
-        }
-        for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + cells[i];
-        text += '\n';
-    }
-    return text;
-}
-
-// Threads differ in when they cull, not in what: the soak test compares pictures in every threading model.
-TEST_F(Vpb, PicturesWithBinsAreThoseWithoutCulling) {
-    for (const auto& [mode, threading, scale] : {std::tuple("terrain", "SingleThreaded", 1),
-                                                 {"terrain", "CullThreadPerCameraDrawThreadPerContext", 3},
-                                                 {"polygonal", "DrawThreadPerContext", 1}}) {
-        SCOPED_TRACE(std::string(mode) + " x" + std::to_string(scale));
-        const nlohmann::json sums = run(mode, folder.write("p.csv", shortPath(scale)),
-                                        {"--methods", "exact+horizon+edges", "--size", "480x270", "--threading",
-                                         threading, "--vertical-scale", std::to_string(scale)});
-        EXPECT_GE(sums["poses"], 12);
-        const nlohmann::json& exact = sums["methods"]["exact+horizon+edges"];
-        expectNothingLost(exact);
-        EXPECT_LT(exact["drawn_tiles"].get<double>(), 0.12 * sums["methods"]["none"]["drawn_tiles"].get<double>());
     }
 }
 

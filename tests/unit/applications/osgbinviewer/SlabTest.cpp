@@ -120,29 +120,5 @@ TEST_F(SlabPicture, LiesOnFlatTerrainFromFarAndNear) {
     }
 }
 
-TEST_F(SlabPicture, DoesNotMixWithTheColoursOfSlabsBehindIt) {
-    const auto slab = [](TileVerdict verdict, core::Interval altitude) {
-        osg::Vec4 faces = verdictColour(verdict);
-        faces.a() = 0.5F;
-        return makeSlab(slabMesh(binDeg({0, 20}, {0, 20}, altitude), kEarth, SlabShape::Bin), faces, faces, 21);
-    };
-    const osg::ref_ptr<osg::Node> sea = makeSea(binDeg({-20, 40}, {-20, 40}, {0.0, 0.0}));
-    const auto low = slab(TileVerdict::Hidden, {0.0, 1e4}), high = slab(TileVerdict::Outside, {1e5, 2e5});
-    lookAt(10.0, 10.0, 3e6, 0.0);
-    const auto alone = pictureOf({sea, high}), both = pictureOf({sea, low, high}),
-               reverse = pictureOf({sea, high, low});
-    const auto middle = [](const osg::Image& image) {
-        return osg::Vec4(image.getColor(test::kSurfaceSize / 2, test::kSurfaceSize / 2));
-    };
-    EXPECT_NE(middle(*alone), middle(*pictureOf({sea, low})));
-    EXPECT_EQ(middle(*both), middle(*alone));
-    EXPECT_EQ(middle(*reverse), middle(*alone));
-    // past the far plane, where CameraCulling's overlay has depths clamped
-    _viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 1e2, 1e5);
-    EXPECT_EQ(middle(*pictureOf({low, high})), middle(*pictureOf({high})));
-    EXPECT_EQ(middle(*pictureOf({high, low})), middle(*pictureOf({high})));
-    EXPECT_NE(middle(*pictureOf({low})), middle(*pictureOf({high})));
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin::viewer

@@ -124,25 +124,6 @@ std::vector<TileId> someTiles(test::Random& random, int level) {
     return tiles;
 }
 
-// Skirts are as deep as that.
-TEST(ProceduralTerrain, HeightsBetweenPostsAreAsNearToTheLineAsItSays) {
-    constexpr double kDegrees = 57.29577951308232;
-    const ProceduralTerrain terrain(8000.0);
-    test::Random random(8104);
-    for (int i = 0; i < 2000; ++i) {
-        const double spacing = random.logUniform(1e-8, 0.1);
-        const tiles::PositionDeg from{random.uniform(-80.0, 80.0), random.uniform(-180.0, 170.0)};
-        const auto heightAt = [&](double share) {
-            tiles::PositionDeg at = from;
-            (i % 2 ? at.latitudeDeg : at.longitudeDeg) += share * spacing * kDegrees;
-            return terrain.height(at);
-        };
-        const double share = random.uniform(0.0, 1.0);
-        const double line = (1.0 - share) * heightAt(0.0) + share * heightAt(1.0);
-        ASSERT_LE(std::abs(heightAt(share) - line), terrain.interpolationError(spacing) + 1e-6) << spacing;
-    }
-}
-
 TEST(ProceduralGlobe, NeighboursShareTheirEdgesToTheLastBit) {
     const ProceduralGlobe globe = globeWith(GlobeOptions::kMostLevels);
     test::Random random(8201);
