@@ -38,10 +38,11 @@ bool isLower(const GeodeticBin& a, const GeodeticBin& b) {
     return a.altitude().upper < b.altitude().upper;
 }
 
-/// Looks for places to fly at, with the files that are in view there loaded.
-class Surveyor {
+/// Looks for places to fly at, with the files that are in view there loaded, and adds poses of one kind after the
+/// other.
+class PathMaker {
 public:
-    Surveyor(const Settings& settings, FileWatch& watch) : _scene(cullMethodFromName("exact"), settings, watch) {
+    PathMaker(const Settings& settings, FileWatch& watch) : _scene(cullMethodFromName("exact"), settings, watch) {
         _scene.load();
         const std::vector<GeodeticBin> bins = loadedBins(_scene.root());
         if (bins.empty())
@@ -50,21 +51,40 @@ public:
         _highest = *std::max_element(bins.begin(), bins.end(), isLower);
         descend();
     }
-    ~Surveyor() { _scene.pause(); }
-    Surveyor(const Surveyor&) = delete;
-    Surveyor& operator=(const Surveyor&) = delete;
+    ~PathMaker() { _scene.pause(); }
 
-    [[nodiscard]] const GeodeticBin& whole() const { return _whole; }
-    /// The finest tile with the highest terrain.
-    [[nodiscard]] const GeodeticBin& highest() const { return _highest; }
+    [[nodiscard]] std::vector<CameraPose> make() {
+        addOverviews();
+        addObliques();
+        const double tile = depthOf(_highest);
+        addLowOnes(tile);
+        addTurn(tile);
+        return std::move(_path);
+    }
 
-    /// Of the globe, or what stands for it in a map.
+private:
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return _scene.globe().radii(); }
+
+    // Of the globe, or what stands for it in a map.
     [[nodiscard]] double radius() const { return ellipsoid().equatorialRadius(); }
 
-    /// From its south to its north, in metres or units of the map.
+    // From its south to its north, in metres or units of the map.
     [[nodiscard]] double depthOf(const GeodeticBin& bin) const { return bin.latitude().width() * radius(); }
 
-    /// So many metres, or units of the map, away.
+    // In the middle of the finest tile with the highest terrain.
+    [[nodiscard]] Geodetic top() const {
+        Geodetic top = _highest.center();
+        top.altitude = _highest.altitude().upper;
+        return top;
+    }
+
+    // How far the database reaches: a globe no farther than its radius.
+    [[nodiscard]] double reach() const {
+        const double parallel = _whole.longitude().width() * std::cos(_whole.center().latitude);
+        return radius() * std::min(1.0, std::max(_whole.latitude().width(), parallel) / 2.0);
+    }
+
+    // So many metres, or units of the map, away.
     [[nodiscard]] Geodetic moved(const Geodetic& from, double heading, double distance) const {
         const double mostLatitude = 89.9 * osg::PI / 180.0;
         const double north = distance * std::cos(heading) / radius();
@@ -74,16 +94,13 @@ public:
         return {latitude, ellipsoid().isPlane() ? longitude : std::remainder(longitude, 2.0 * osg::PI), from.altitude};
     }
 
-    /// Over the ground there, once its finest tiles are loaded.
+    // Over the ground there, once its finest tiles are loaded.
     [[nodiscard]] Geodetic aboveGround(Geodetic at, double height) {
         at.altitude = _highest.altitude().upper;
         lookDown(at, 2.0 * depthOf(_highest));
         at.altitude = groundAt(at).value_or(at.altitude) + height;
         return at;
     }
-
-private:
-    [[nodiscard]] core::Ellipsoid ellipsoid() const { return _scene.globe().radii(); }
 
     void lookDown(const Geodetic& at, double height) {
         Geodetic eye = at;
@@ -95,13 +112,12 @@ private:
     void descend() {
         constexpr double kFiner = 0.75;
         for (bool isFiner = true; isFiner;) {
-            Geodetic top = _highest.center();
-            top.altitude = _highest.altitude().upper;
-            lookDown(top, std::min(1.2 * depthOf(_highest), 3.0 * radius()));
+            const Geodetic at = top();
+            lookDown(at, std::min(1.2 * depthOf(_highest), 3.0 * radius()));
             std::vector<GeodeticBin> bins = loadedBins(_scene.root());
             const auto isCoarser = [&](const GeodeticBin& bin) {
                 return bin.latitude().width() > kFiner * _highest.latitude().width() ||
-                       !_highest.contains(Geodetic{bin.center().latitude, bin.center().longitude, top.altitude});
+                       !_highest.contains(Geodetic{bin.center().latitude, bin.center().longitude, at.altitude});
             };
             bins.erase(std::remove_if(bins.begin(), bins.end(), isCoarser), bins.end());
             isFiner = !bins.empty();
@@ -119,42 +135,19 @@ private:
         return hit ? std::optional(globe.geodetic(*hit).altitude) : std::nullopt;
     }
 
-    MethodScene _scene;
-    GeodeticBin _whole;
-    GeodeticBin _highest;
-};
-
-/// Adds poses of one kind after the other.
-struct PathMaker {
-    Surveyor& places;
-    std::vector<CameraPose> path;
-
     void add(const char* kind, int number, const Geodetic& eye, const Geodetic& look) {
-        CameraPose& pose = path.emplace_back();
+        CameraPose& pose = _path.emplace_back();
         pose.name = std::string(kind) + "_" + std::to_string(number);
         pose.eye = eye;
         pose.look = look;
         pose.verticalFov = osg::DegreesToRadians(kVerticalFov);
-        pose.time = static_cast<double>(path.size());
-    }
-
-    [[nodiscard]] Geodetic top() const {
-        Geodetic top = places.highest().center();
-        top.altitude = places.highest().altitude().upper;
-        return top;
-    }
-
-    // How far the database reaches: a globe no farther than its radius.
-    [[nodiscard]] double reach() const {
-        const GeodeticBin& whole = places.whole();
-        const double parallel = whole.longitude().width() * std::cos(whole.center().latitude);
-        return places.radius() * std::min(1.0, std::max(whole.latitude().width(), parallel) / 2.0);
+        pose.time = static_cast<double>(_path.size());
     }
 
     void addOverviews() {
-        Geodetic look = places.whole().center();
-        look.altitude = places.whole().altitude().upper;
-        const double quarter = places.whole().longitude().width() / 4.0;
+        Geodetic look = _whole.center();
+        look.altitude = _whole.altitude().upper;
+        const double quarter = _whole.longitude().width() / 4.0;
         look.longitude -= quarter;
         for (int i = 1; i <= 3; ++i, look.longitude += quarter) {
             Geodetic eye = look;
@@ -166,7 +159,7 @@ struct PathMaker {
     void addObliques() {
         const double distance = 0.15 * reach();
         for (int i = 0; i < 4; ++i) {
-            Geodetic eye = places.moved(top(), i * osg::PI_2, distance);
+            Geodetic eye = moved(top(), i * osg::PI_2, distance);
             eye.altitude += 0.6 * distance;
             add("oblique", i + 1, eye, top());
         }
@@ -174,7 +167,7 @@ struct PathMaker {
 
     void addLowOnes(double tile) {
         for (int i = 0; i < 4; ++i) {
-            const Geodetic eye = places.aboveGround(places.moved(top(), i * osg::PI_2, tile), 0.015 * tile);
+            const Geodetic eye = aboveGround(moved(top(), i * osg::PI_2, tile), 0.015 * tile);
             Geodetic look = top();
             look.altitude = eye.altitude;
             add("low", i + 1, eye, look);
@@ -183,27 +176,24 @@ struct PathMaker {
 
     void addTurn(double tile) {
         constexpr int kViews = 6;
-        const Geodetic eye = places.aboveGround(places.moved(top(), 0.0, 0.75 * tile), 0.05 * tile);
+        const Geodetic eye = aboveGround(moved(top(), 0.0, 0.75 * tile), 0.05 * tile);
         for (int i = 0; i < kViews; ++i) {
-            Geodetic look = places.moved(eye, 2.0 * osg::PI * i / kViews, tile);
+            Geodetic look = moved(eye, 2.0 * osg::PI * i / kViews, tile);
             look.altitude -= 0.15 * tile;
             add("turning", i + 1, eye, look);
         }
     }
+
+    MethodScene _scene;
+    GeodeticBin _whole, _highest;
+    std::vector<CameraPose> _path;
 };
 
 }  // namespace
 
 std::vector<CameraPose> defaultPath(const Settings& settings, FileWatch& watch) {
     std::cerr << "osgbinbench: looking for the highest terrain, to fly around it" << std::endl;
-    Surveyor surveyor(settings, watch);
-    PathMaker maker{surveyor, {}};
-    const double tile = surveyor.depthOf(surveyor.highest());
-    maker.addOverviews();
-    maker.addObliques();
-    maker.addLowOnes(tile);
-    maker.addTurn(tile);
-    return maker.path;
+    return PathMaker(settings, watch).make();
 }
 
 }  // namespace osgAnalyticBin::bench
