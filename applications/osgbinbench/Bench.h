@@ -26,10 +26,8 @@ namespace osgAnalyticBin::bench {
 using Picture = std::pair<std::string, osg::ref_ptr<osg::Image>>;
 
 struct PoseFigures {
-    /// Of all poses, or, where the user has asked to stop, of those until then, one at least.
-    Measurement measured;
-    /// For the report: what the last method draws, by pose.
-    std::vector<Picture> pictures;
+    Measurement measured;  ///< of all poses, or, where the user has asked to stop, of those until then, one at least
+    std::vector<Picture> pictures;  ///< for the report: what the last method draws, by pose
 };
 
 /// Measures all methods at every pose of a path. At each pose every method starts from the root file alone, so that

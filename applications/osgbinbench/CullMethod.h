@@ -18,14 +18,11 @@ struct CullMethod {
     std::string loader = "analyticbin";
     /// What the pseudo-loader is told before and after the user's options; the last item of a key counts.
     std::string before, after;
-    /// Whether the user's options count.
-    bool usesBins = true;
+    bool usesBins = true;  ///< whether the user's options count
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
     Clusters clusters = Clusters::Keep;
-    /// Whether the camera culls nothing at all.
-    bool cullsNothing = false;
-    /// Whether what the bins decide at a pose is repeated without tests.
-    bool replaysVerdicts = false;
+    bool cullsNothing = false;     ///< whether the camera culls nothing at all
+    bool replaysVerdicts = false;  ///< whether what the bins decide at a pose is repeated without tests
 
     /// The name under which OSG reads the database with this method. `binOptions` go to the bins alone; an altitude of
     /// the horizon in them counts with methods that use the horizon.

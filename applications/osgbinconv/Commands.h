@@ -48,8 +48,7 @@ void checkIndex(const DatabaseFiles& files, const WalkOptions& options);
 
 struct CopyOptions {
     bool overwrite = false;
-    /// Whether osg::ClusterCullingCallbacks stay in the copy.
-    bool keepClusters = false;
+    bool keepClusters = false;  ///< whether osg::ClusterCullingCallbacks stay in the copy
 };
 
 /// Writes a copy of a database with the bins in its files, in the format of the output's extension. The original is

@@ -192,8 +192,7 @@ private:
     std::string _extension;
     std::string _marker;
     const osgAnalyticBin::support::LockedFile _lock;
-    /// Whether files of an earlier copy may be left.
-    bool _keepsMarker = false;
+    bool _keepsMarker = false;  ///< whether files of an earlier copy may be left
     std::mutex _mutex;
     std::vector<std::string> _written;
 };
