@@ -129,8 +129,7 @@ void placeOrigin(TerrainGrid& grid, const TileLayout& layout, int level) {
     for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::nearbyint(point[axis] / grid.quantum) * grid.quantum;
 }
 
-osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const core::Ellipsoid& ellipsoid,
-                                                 const std::string& wkt) {
+osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const core::Ellipsoid& ellipsoid, const std::string& wkt) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(wkt.empty() ? "" : "WKT", wkt);
     root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()));
     const osg::ref_ptr<osg::Material> material = new osg::Material;
