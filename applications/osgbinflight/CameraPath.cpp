@@ -6,7 +6,6 @@
 #include "Angles.h"
 #include "CsvTable.h"
 #include "Failure.h"
-#include "TextFile.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -182,9 +181,10 @@ std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& file
     return joined;
 }
 
-void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path) {
+std::string textOf(const std::vector<CameraPose>& path) {
     const bool havePlanes =
         std::any_of(path.begin(), path.end(), [](const CameraPose& pose) { return pose.hasPlanes(); });
+    std::ostringstream out;
     out.precision(std::numeric_limits<double>::max_digits10);
     out << kNameColumn;
     for (std::size_t i = EyeLat; i <= (havePlanes ? Far : Fov); ++i) out << ',' << kNumbers[i].name;
@@ -200,12 +200,7 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path) {
         if (havePlanes) out << ',' << pose.nearPlane << ',' << pose.farPlane;
         out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian << '\n';
     }
-}
-
-void writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path) {
-    std::ostringstream text;
-    writeCameraPath(text, path);
-    support::writeFile(fileName, text.str());
+    return out.str();
 }
 
 namespace {

@@ -42,12 +42,9 @@ struct CameraPose {
 /// the file before. Throws: Failure when a file cannot be opened, or is broken, or two share a pose's name.
 [[nodiscard]] std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames);
 
-/// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
-/// a name are flight1, flight2 and so on; `eyeRight` is not written.
-void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path);
-
-/// Replaces a file when the new one is complete. Throws: Failure when that fails; what was there before stays.
-void writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path);
+/// A camera path over a globe as readCameraPath() reads it: metres and seconds read back exactly, angles but for the
+/// last bit. Poses without a name are flight1, flight2 and so on; `eyeRight` is not written.
+[[nodiscard]] std::string textOf(const std::vector<CameraPose>& path);
 
 /// A continuous flight from the first pose of a path to the last, its time evenly divided into frames: eye and look
 /// point run along great circles, altitudes above zero, fields of view, near and far grow by equal ratios, roll and the

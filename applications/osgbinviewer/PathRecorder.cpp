@@ -4,6 +4,7 @@
 #include "CameraView.h"
 #include "Failure.h"
 #include "Handlers.h"
+#include "TextFile.h"
 
 #include <osg/Notify>
 #include <osgUtil/CullVisitor>
@@ -90,7 +91,7 @@ void PathRecorder::write() {
     if (_isWritten) return;
     _isWritten = true;
     try {
-        flight::writeCameraPathFile(_fileName, _path);
+        support::writeFile(_fileName, textOf(_path));
     } catch (const support::Failure& failure) {
         OSG_WARN << "PathRecorder: " << failure.what() << std::endl;
     }

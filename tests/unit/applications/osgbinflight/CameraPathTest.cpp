@@ -70,9 +70,7 @@ TEST(CameraPath, LeavesNearAndFarPlanesToOsg) {
     const std::string header = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg";
     const auto path = read(header + "\np,1,2,300,1,3,300,60\n");
     EXPECT_FALSE(path.front().hasPlanes());
-    std::ostringstream written;
-    writeCameraPath(written, path);
-    EXPECT_EQ(written.str().substr(0, header.size() + 6), header + ",time,");
+    EXPECT_EQ(textOf(path).substr(0, header.size() + 6), header + ",time,");
     expectError(header + ",far\np,1,2,300,1,3,300,60,9\n", "one is missing");
 }
 

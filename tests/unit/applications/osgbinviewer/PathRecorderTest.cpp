@@ -33,8 +33,7 @@ TEST(PathRecorder, WritesWhatIsReadBackEqual) {
     std::vector<flight::CameraPose> path = somePath(scene);
     ASSERT_EQ(path.size(), 4u);
     for (std::size_t i = 0; i < path.size(); ++i) path[i].roll = 0.3 - 0.2 * double(i);
-    std::stringstream text;
-    flight::writeCameraPath(text, path);
+    std::istringstream text(textOf(path));
     const auto read = flight::readCameraPath(text, "recorded");
     ASSERT_EQ(read.size(), path.size());
     constexpr double kRounding = 2e-15;
