@@ -6,7 +6,6 @@
 #include "Failure.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "ProgramRun.h"
 #include "Report.h"
 #include "ScaleCommand.h"
 #include "TextFile.h"

@@ -5,7 +5,6 @@
 #include "Commands.h"
 #include "Failure.h"
 #include "ModuleFolder.h"
-#include "ProgramRun.h"
 
 #include <osg/Notify>
 

@@ -5,7 +5,6 @@
 
 #include "DiskFile.h"
 #include "Failure.h"
-#include "ProgramRun.h"
 #include "RasterFile.h"
 
 #include <cpl_string.h>

@@ -4,7 +4,6 @@
 #include "DatabaseBuilder.h"
 #include "Failure.h"
 #include "ModuleFolder.h"
-#include "ProgramRun.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>

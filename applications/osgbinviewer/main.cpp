@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Failure.h"
 #include "FrameCapture.h"
 #include "Handlers.h"
 #include "ModuleFolder.h"
-#include "ProgramRun.h"
 #include "Settings.h"
 #include "Traffic.h"
 #include "ViewTools.h"

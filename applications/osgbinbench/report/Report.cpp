@@ -5,7 +5,6 @@
 
 #include "CommandLine.h"
 #include "CsvTable.h"
-#include "Failure.h"
 #include "PictureDifference.h"
 #include "PoseTable.h"
 #include "Table.h"

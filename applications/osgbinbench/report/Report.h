@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "ProgramRun.h"
+#include "Failure.h"
 #include "Table.h"
 
 #include <iosfwd>

@@ -8,7 +8,6 @@
 #include "CullMethod.h"
 #include "CullTimer.h"
 #include "Diagram.h"
-#include "Failure.h"
 #include "ModuleFolder.h"
 #include "Nodes.h"
 #include "Quantiles.h"

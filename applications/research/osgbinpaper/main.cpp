@@ -4,7 +4,6 @@
 #include "CommandLine.h"
 #include "Experiment.h"
 #include "Failure.h"
-#include "ProgramRun.h"
 #include "ProgressLine.h"
 #include "TextFile.h"
 

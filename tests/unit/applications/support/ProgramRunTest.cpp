@@ -3,7 +3,6 @@
 
 #include "CommandLine.h"
 #include "Failure.h"
-#include "ProgramRun.h"
 #include "ProgressLine.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ProgramRun.h"
-
 #include "Failure.h"
 
 #include <exception>
