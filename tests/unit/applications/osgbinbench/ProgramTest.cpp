@@ -34,6 +34,15 @@ constexpr const char* kPath =
     "level,5,5,20000,5,15,0,60,2000,4000000\n"
     "limb,-44.6,22.5,10000000,22.5,22.5,110000,2,1000000,30000000\n";
 
+// Returns: the sums by method; null when the program failed.
+Json sumsOf(Words words, const std::string& json, const Words& more) {
+    words.insert(words.end(), {"--repeats", "1", "--json", json});
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = test::runBench(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return outcome.code == 0 ? test::jsonFile(json)["methods"] : Json();
+}
+
 class Program : public testing::Test {
 protected:
     void SetUp() override {
@@ -41,23 +50,9 @@ protected:
         ASSERT_FALSE(database.empty());
     }
 
-    // Returns: the sums by method; null when the program failed.
     [[nodiscard]] Json run(const std::string& name, const Words& more) const {
-        Words words{database,
-                    "--path",
-                    path,
-                    "--size",
-                    "320x240",
-                    "--repeats",
-                    "1",
-                    "--json",
-                    folder / (name + ".json"),
-                    "--csv",
-                    folder / (name + ".csv")};
-        words.insert(words.end(), more.begin(), more.end());
-        const Outcome outcome = test::runBench(words);
-        EXPECT_EQ(outcome.code, 0) << outcome.text;
-        return outcome.code == 0 ? test::jsonFile(folder / (name + ".json"))["methods"] : Json();
+        return sumsOf({database, "--path", path, "--size", "320x240", "--csv", folder / (name + ".csv")},
+                      folder / (name + ".json"), more);
     }
 
     const TemporaryFolder folder;
@@ -241,6 +236,52 @@ TEST_F(Program, SaysWhatIsWrong) {
     EXPECT_LE(absent.linesWith(""), 2) << absent.text;  // progress, then what went wrong
     EXPECT_FALSE(std::filesystem::exists(folder / "poses.csv"));
     expectError(test::runBench({database, "--path", path, "--vertical-scale", "2"}), "--vertical-scale: ");
+}
+
+// Databases of VirtualPlanetBuilder, and a camera path that was made for one of them. Skipped where the samples are
+// absent.
+class Vpb : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
+        if (!std::filesystem::exists(databaseOf("terrain"))) GTEST_SKIP() << "needs " << SAMPLE_DATA;
+    }
+    static std::string databaseOf(const std::string& mode) { return SAMPLE_DATA "/vpb/" + mode + "/earth.osgb"; }
+    [[nodiscard]] Json run(const std::string& mode, const std::string& path, const Words& more) const {
+        return sumsOf({databaseOf(mode), "--path", path, "--flush", "0"}, folder / "sums.json", more);
+    }
+    static void expectNothingLost(const Json& method) {
+        for (const char* const wrong : {"false_culls", "differing_pixels"}) EXPECT_EQ(method[wrong], 0) << wrong;
+    }
+
+    const TemporaryFolder folder;
+};
+
+TEST_F(Vpb, StockMethodsDifferInWhatTheyDrawAndAskFor) {
+    const std::string path =
+        folder.write("p.csv",
+                     "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
+                     "oblique,58,-20,100000,59,-19,0,60,20000,2000000\n"
+                     "level,58,-20,9000,62,-19,3000,60,500,700000\n");
+    for (const char* const mode : {"terrain", "polygonal"}) {
+        const Json methods = run(mode, path, {"--methods", "sphere,cluster", "--size", "320x240"});
+        for (const char* const key : {"drawn_tiles", "triangles", "paged_lods", "files_requested", "bytes"}) {
+            // Nothing but the cluster callbacks, those of later pages among them, tells sphere and cluster apart.
+            EXPECT_LT(methods["sphere"][key], methods["none"][key]) << mode << ' ' << key;
+            EXPECT_LT(methods["cluster"][key], methods["sphere"][key]) << mode << ' ' << key;
+        }
+        expectNothingLost(methods["sphere"]);
+        EXPECT_LE(methods["none"]["visible_tiles"], methods["none"]["truth_tiles"]);
+    }
+}
+
+TEST_F(Vpb, ClusterCallbacksCullWhatIsSeenOfExaggeratedTerrainAndBinsDoNot) {
+    const Json methods =
+        run("terrain", VPB_EXAGGERATED_PATH_FILE,
+            {"--vertical-scale", "10", "--methods", "cluster,exact+horizon+edges", "--size", "640x360"});
+    EXPECT_GE(methods["cluster"]["false_culls"], 5);
+    EXPECT_GE(methods["cluster"]["differing_pixels"], 500);
+    expectNothingLost(methods["exact+horizon+edges"]);
 }
 
 }  // namespace
