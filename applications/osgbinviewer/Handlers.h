@@ -4,7 +4,6 @@
 #pragma once
 
 #include "CameraPath.h"
-#include "TextPanel.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
@@ -12,6 +11,7 @@
 
 #include <osg/Camera>
 #include <osg/Group>
+#include <osg/Vec4>
 #include <osgGA/GUIEventHandler>
 #include <osgViewer/Viewer>
 
@@ -22,6 +22,30 @@
 #include <vector>
 
 namespace osgAnalyticBin::viewer {
+
+/// Lines of text in a corner of a camera's picture, part of its overlay.
+class TextPanel : public osg::Referenced {
+public:
+    struct Line {
+        std::string text;
+        osg::Vec4 colour;
+
+        [[nodiscard]] bool operator==(const Line& other) const { return text == other.text && colour == other.colour; }
+    };
+    enum class Corner { BottomLeft, BottomRight, TopRight };
+
+    explicit TextPanel(Corner corner);
+
+    /// Shows the lines on a camera; none: nothing is shown.
+    void show(osg::Camera& camera, const std::vector<Line>& lines);
+    void hide();
+
+private:
+    const Corner _corner;
+    const osg::ref_ptr<osg::Camera> _hud;
+    std::vector<Line> _lines;
+    double _width = 0.0;
+};
 
 /// A handler of keys of osgbinviewer's own; a view has one of each kind. In the help they come before OSG's.
 class KeyHandler : public osgGA::GUIEventHandler {

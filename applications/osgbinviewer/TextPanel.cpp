@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "TextPanel.h"
-
+#include "Handlers.h"
 #include "ViewTools.h"
-
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osg/Geometry>
 #include <osgText/Text>
