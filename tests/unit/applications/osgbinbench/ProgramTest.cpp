@@ -284,5 +284,13 @@ TEST_F(Vpb, ClusterCallbacksCullWhatIsSeenOfExaggeratedTerrainAndBinsDoNot) {
     expectNothingLost(methods["exact+horizon+edges"]);
 }
 
+TEST_F(Vpb, PicturesWithBinsAreThoseWithoutCulling) {
+    const Json methods =
+        run("polygonal", VPB_EXAGGERATED_PATH_FILE,
+            {"--methods", "bins", "--size", "480x270", "--threading", "DrawThreadPerContext"})["methods"];
+    expectNothingLost(methods["bins"]);
+    EXPECT_LT(methods["bins"]["drawn_tiles"].get<double>(), 0.3 * methods["none"]["drawn_tiles"].get<double>());
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin

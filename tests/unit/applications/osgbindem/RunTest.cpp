@@ -130,6 +130,15 @@ TEST_F(Error, InterruptedRunsLeaveNothingThatHindersTheNextOne) {
     EXPECT_FALSE(fs::exists(file("out/earth_tiles.partial")));
 }
 
+TEST_F(Error, WhatAKilledRunLeftIsClearedAway) {
+    fs::create_directories(file("out/earth_tiles.partial/X00_Y0"));
+    (void)_folder.write("out/earth_tiles.partial/X00_Y0/L01_X0_Y0.osgb.tmp", "half");
+    (void)_folder.write("out/earth_tiles.lock", "");
+    buildLevels("1");
+    EXPECT_FALSE(fs::exists(file("out/earth_tiles.partial")));
+    EXPECT_FALSE(fs::exists(file("out/earth_tiles.lock")));
+}
+
 class Said : public RasterTest {
 protected:
     /// Runs osgbindem to the end, and looks for words in what it says.
