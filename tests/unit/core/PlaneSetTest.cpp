@@ -31,19 +31,26 @@ struct PlaneSetCase {
     PlaneMask undecided = 0;
 };
 
+// By the set, and by the same planes in a list.
 template <class Bin>
 void expectVerdictsOfSinglePlanes(const Bin& bin, const PlaneSet& planes, PlaneMask undecided) {
-    PlaneMask left = undecided, expectedLeft = undecided;
-    const Side side = core::classify(bin, planes, left);
-    ASSERT_EQ(side, (core::classify<Bin, PlaneSet>(bin, planes, planes.size(), expectedLeft)));
-    ASSERT_TRUE(side == Side::Outside || left == expectedLeft);
-    // What is cleared is inside, whatever the result.
-    ASSERT_EQ(left & ~undecided, 0u);
-    for (std::size_t i = 0; i < core::kMaxPlanes; ++i) {
+    PlaneMask open = undecided;  // planes that are not there stay undecided
+    bool isOutside = false;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
         const PlaneMask bit = PlaneMask{1} << i;
-        if ((undecided & ~left & bit) == 0) continue;
-        ASSERT_LT(i, planes.size());
-        ASSERT_EQ(bin.classify(planes[i]), Side::Inside);
+        const Side side = undecided & bit ? bin.classify(planes[i]) : Side::Inside;
+        isOutside = isOutside || side == Side::Outside;
+        if (side == Side::Inside) open &= ~bit;
+    }
+    const Side expected = isOutside ? Side::Outside : open != 0 ? Side::Straddling : Side::Inside;
+    PlaneMask left = undecided, leftOfList = undecided;
+    ASSERT_EQ(core::classify(bin, planes, left), expected);
+    ASSERT_EQ((core::classify<Bin, PlaneSet>(bin, planes, planes.size(), leftOfList)), expected);
+    for (const PlaneMask found : {left, leftOfList}) {
+        ASSERT_TRUE(isOutside || found == open);
+        ASSERT_EQ(found & ~undecided, 0u) << "no bit is ever set";
+        // what is cleared is inside, whatever the result
+        ASSERT_EQ(undecided & ~found & open, 0u);
     }
 }
 
@@ -131,6 +138,11 @@ TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
     for (std::size_t i = 0; i < core::kMaxPlanes; ++i) full.push_back(around);
     PlaneMask undecided = full.all();
     EXPECT_EQ(core::classify(bin, full, undecided), Side::Inside);
+    // than the mask names, in a list
+    std::vector<Plane> list(core::kMaxPlanes + 1, around);
+    EXPECT_EQ(core::classify(bin, list, list.size(), undecided = full.all()), Side::Straddling);
+    list.front() = away;
+    EXPECT_EQ(core::classify(bin, list, list.size(), undecided = full.all()), Side::Outside);
     const auto overflow = [&](const Plane& first) {
         PlaneSet planes = setOf({first});
         while (planes.size() < core::kMaxPlanes) planes.push_back(around);
@@ -176,69 +188,11 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
 
 #endif
 
-using core::classify;
-using core::kMaxPlanes;
-
-// Answers by the plane's offset.
-struct ScriptedBin {
-    [[nodiscard]] Side classify(const Plane& plane) const noexcept {
-        if (plane.offset < 0.0) return Side::Outside;
-        return plane.offset > 0.0 ? Side::Inside : Side::Straddling;
-    }
-};
-
-Plane answering(Side side) {
-    const double offset = side == Side::Outside ? -1.0 : (side == Side::Inside ? 1.0 : 0.0);
-    return {{0.0, 0.0, 1.0}, offset};
-}
-
 TEST(Plane, NormalPointsIntoTheFrustum) {
     const Plane plane{{1.0, 0.0, 0.0}, -2.0};
     EXPECT_EQ(plane.distance({5.0, 7.0, 9.0}), 3.0);
     EXPECT_EQ(plane.distance({1.0, 7.0, 9.0}), -1.0);
     EXPECT_EQ(plane.flipped().distance({5.0, 7.0, 9.0}), -3.0);
-}
-
-TEST(Classify, NothingIsInsideOfMorePlanesThanTheMaskNames) {
-    const ScriptedBin bin;
-    std::vector<Plane> planes(kMaxPlanes, answering(Side::Inside));
-    PlaneMask undecided = ~PlaneMask{0};
-    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Inside);
-    planes.push_back(answering(Side::Outside));
-    undecided = ~PlaneMask{0};
-    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Straddling);
-    planes.front() = answering(Side::Outside);
-    undecided = ~PlaneMask{0};
-    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Outside);
-}
-
-TEST(Classify, AgreesWithThePlanesOneByOne) {
-    Random random(20);
-    constexpr std::array<Side, 3> kSides{Side::Outside, Side::Straddling, Side::Inside};
-    for (int trial = 0; trial < 10000; ++trial) {
-        std::vector<Plane> planes;
-        const int count = random.integer(0, 8);
-        for (int i = 0; i < count; ++i) planes.push_back(answering(random.pick(kSides)));
-        // planes that are not there stay undecided
-        const auto before = static_cast<PlaneMask>(random.integer(0, 255));
-        bool outside = false, straddling = before >> count != 0;
-        for (int i = 0; i < count; ++i) {
-            if (!(before >> i & 1u)) continue;
-            outside = outside || planes[static_cast<std::size_t>(i)].offset < 0.0;
-            straddling = straddling || planes[static_cast<std::size_t>(i)].offset == 0.0;
-        }
-        PlaneMask undecided = before;
-        const Side expected = outside ? Side::Outside : (straddling ? Side::Straddling : Side::Inside);
-        ASSERT_EQ(classify(ScriptedBin{}, planes, planes.size(), undecided), expected);
-        ASSERT_EQ(undecided & ~before, 0u) << "no bit is ever set";
-        if (!outside) {
-            for (int i = 0; i < 8; ++i) {
-                const bool undecidedNow = undecided >> i & 1u;
-                const bool isOpen = i >= count || planes[static_cast<std::size_t>(i)].offset == 0.0;
-                ASSERT_EQ(undecidedNow, (before >> i & 1u) != 0 && isOpen);
-            }
-        }
-    }
 }
 
 }  // namespace
