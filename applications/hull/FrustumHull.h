@@ -87,7 +87,7 @@ private:
 };
 
 /// Guarantee: true only if no point of the bin, margin included, is inside all of the frustum's planes;
-/// tests: HullSoundness.HasNoFalseVerdict.
+/// tests: Soundness.HasNoFalseVerdict.
 /// Cost: up to five faces times eight corners, three multiplications each; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept;
 

@@ -25,7 +25,7 @@ using hull::FrustumHull;
 class Box {
 public:
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
-    /// the margin of it; tests: HullSoundness.HasNoFalseVerdict. A plane with NaN is Straddling.
+    /// the margin of it; tests: Soundness.HasNoFalseVerdict. A plane with NaN is Straddling.
     [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
     /// How many faces a box has.
@@ -66,7 +66,7 @@ public:
 
 /// The usual reverse test: whether the frustum is wholly beyond one face of the box.
 /// Guarantee: true only if no point of the bin, margin included, is inside all of the frustum's planes;
-/// test: HullSoundness.HasNoFalseVerdict.
+/// test: Soundness.HasNoFalseVerdict.
 /// Cost: up to six faces times eight corners; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const Box& box, const FrustumHull& frustum) noexcept;
 

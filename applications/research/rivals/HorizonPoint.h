@@ -18,7 +18,7 @@ public:
     /// `bin` holds the margin already. A bin more than a quarter turn from its middle is never hidden.
     explicit HorizonPoint(const core::HorizonBin& bin) noexcept;
 
-    /// Guarantee: true only if the bin that the point was made for is hidden; test: HullSoundness.HasNoFalseVerdict.
+    /// Guarantee: true only if the bin that the point was made for is hidden; test: Soundness.HasNoFalseVerdict.
     /// Cost: about a dozen multiplications and a square root.
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const noexcept;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Oracles: the exact intersection of a line of sight with the occluder in long double, at sampled points of the bin and
-// at points made so that the line of sight just misses; relations. HullSoundness.cpp makes ten million more trials.
+// at points made so that the line of sight just misses; relations. Soundness.cpp makes ten million more trials.
 
 #include "CoreTest.h"
 

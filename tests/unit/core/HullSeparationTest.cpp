@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The search for a parting plane. Oracle: libccd says which hulls meet. Planets and HullSoundness.cpp (ten million
+// The search for a parting plane. Oracle: libccd says which hulls meet. Planets and Soundness.cpp (ten million
 // trials) test bins with a point that is known to be inside the frustum.
 
 #include "CoreTest.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The reverse test. HullSoundness.cpp tests bins with a point that is inside the frustum by long double, and
+// The reverse test. Soundness.cpp tests bins with a point that is inside the frustum by long double, and
 // RivalBinsTest.cpp that frusta beyond a face are found.
 
 #include "FrustumHull.h"

@@ -40,7 +40,7 @@ public:
     /// An interval that holds the signed distance of every point of the bin, margin included.
     /// Guarantee: without margin, exceeds the true range on each side by at most 64 epsilon times the sum of the larger
     /// radius, the largest altitude either way and the plane's offset, for bins wider than 1e-14 radians or of no
-    /// width; tests: ExactGeodeticBin.IsTightToRounding, HullSoundness.HasNoFalseVerdictNearTies.
+    /// width; tests: ExactGeodeticBin.IsTightToRounding, Soundness.HasNoFalseVerdictNearTies.
     [[nodiscard]] Interval distanceRange(const Plane& plane) const noexcept;
 
     /// The largest n.x over the bin, without margin, to 64 epsilon times the larger radius and altitude.

@@ -64,7 +64,7 @@ template <class Bin>
 /// is anything with `classify`, `supportPoint`, `hullPoint` and `reach`, such as ExactGeodeticBin; `undecided` names
 /// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
 /// Guarantee: true only if no point of the bin, margin included, is inside all these planes;
-/// tests: HullSoundness.HasNoFalseVerdict.
+/// tests: Soundness.HasNoFalseVerdict.
 /// Cost: one to `kSeparationSteps` support points for each pair of planes, and a classification when it ends with
 /// true; no allocation, no trigonometry.
 template <class Bin, class Planes>

@@ -63,7 +63,7 @@ public:
 
     /// Guarantee: true only if the segment from every point of the bin, margin included, to the eye (the half line
     /// against the viewing direction) meets the occluder, for b/a from 0.01 to 10;
-    /// tests: HullSoundness.HasNoFalseVerdict, HullSoundness.HasNoFalseVerdictNearTies.
+    /// tests: Soundness.HasNoFalseVerdict, Soundness.HasNoFalseVerdictNearTies.
     /// Requires: a bin prepared for the same ellipsoid.
     /// Cost: about 35 multiplications and two or three square roots; no trigonometry.
     [[nodiscard]] bool hides(const HorizonBin& bin) const noexcept;
