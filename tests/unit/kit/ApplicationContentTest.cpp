@@ -63,23 +63,22 @@ void expectDrawnWhereItIs(MeshGlobe& globe, const Content& content, double altit
     EXPECT_TRUE(content.isDrawn);
 }
 
-TEST(ContentOfMeshes, IsDrawnByANodeOfAnyClass) {
-    MeshGlobe globe;
-    const AboveTheMesh above(globe);
-    const osg::ref_ptr<Drawing<osg::Node>> lights = new Drawing<osg::Node>(above.local);
-    above.mesh.addChild(lights);
-    expectDrawnWhereItIs(globe, *lights, 20000.0);
-    EXPECT_NE(installedOn(*globe.tiles[19]), nullptr);
-}
-
-TEST(ContentOfMeshes, IsDrawnByAGroupOfAnyClass) {
-    for (const bool hasChild : {false, true}) {
+TEST(ContentOfMeshes, IsDrawnByANodeOrAGroupOfAnyClass) {
+    const auto expectDrawn = [](auto&& make) {
         MeshGlobe globe;
         const AboveTheMesh above(globe);
-        const osg::ref_ptr<Balloon> balloon = new Balloon(above.local);
-        if (hasChild) balloon->addChild(makeTower({}));
-        above.mesh.addChild(balloon);
-        expectDrawnWhereItIs(globe, *balloon, 20000.0);
+        const auto content = make(above.local);
+        above.mesh.addChild(content);
+        expectDrawnWhereItIs(globe, *content, 20000.0);
+        EXPECT_NE(installedOn(*globe.tiles[19]), nullptr);
+    };
+    expectDrawn([](const osg::Vec3d& at) { return osg::ref_ptr<Drawing<osg::Node>>(new Drawing<osg::Node>(at)); });
+    for (const bool hasChild : {false, true}) {
+        expectDrawn([hasChild](const osg::Vec3d& at) {
+            const osg::ref_ptr<Balloon> balloon = new Balloon(at);
+            if (hasChild) balloon->addChild(makeTower({}));
+            return balloon;
+        });
     }
 }
 

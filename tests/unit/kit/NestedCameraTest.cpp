@@ -130,48 +130,38 @@ TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
 }
 
 // Below the database's root the eye may change and the model-view matrix stay: from 500 km above the ground an eye sees
-// 22 degrees far, an orthographic view from there half of the globe.
+// 22 degrees far, an orthographic view from there half of the globe. A projection leaves even that matrix's place as it
+// is. The tile, or the family that it is in, stays where it is, too: one that is missing would be a hole.
 TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
     const CullView view = MeshGlobe::fromAbove();
     constexpr double kHalf = 7e6;
     const osg::Matrixd orthographic = osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7);
-    for (const auto frame : {Transform::ABSOLUTE_RF, Transform::RELATIVE_RF}) {
-        InstalledGlobe globe;
-        // 45 degrees and more from the eye
-        const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
-        EXPECT_FALSE(globe.draws(*tile, view));
-        const bool isAbsolute = frame == Transform::ABSOLUTE_RF;
+    const auto makeCamera = [&](bool isAbsolute) -> osg::ref_ptr<osg::Group> {
         const osg::ref_ptr<Camera> camera = new Camera;
-        camera->setReferenceFrame(frame);
+        camera->setReferenceFrame(isAbsolute ? Transform::ABSOLUTE_RF : Transform::RELATIVE_RF);
         camera->setRenderOrder(Camera::NESTED_RENDER);
         camera->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
         camera->setViewMatrix(isAbsolute ? view.modelView : osg::Matrixd());
         camera->setProjectionMatrix(isAbsolute ? orthographic : orthographic * osg::Matrixd::inverse(view.projection));
-        // the tile stays where it is, too: one that is missing would be a hole
-        camera->addChild(tile);
-        globe.root->addChild(camera);
-        EXPECT_TRUE(globe.draws(*tile, view)) << isAbsolute;
-    }
-}
-
-// The same below an osg::Projection, which leaves even the model-view matrix's place as it is: a tile, and a family.
-TEST(NestedCameras, ProjectionsBetweenADatabaseAndItsTilesHaveNoHorizonOfTheDatabase) {
-    constexpr double kHalf = 7e6;
-    const CullView view = MeshGlobe::fromAbove();
-    for (const bool isFamily : {false, true}) {
-        MeshGlobe globe;
-        const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
-        const osg::ref_ptr<osg::Group> family = new osg::Group;
-        globe.root->replaceChild(tile, family);
-        family->addChild(tile);
-        installBins(*globe.root);
-        EXPECT_FALSE(globe.draws(*tile, view));
-        const osg::ref_ptr<osg::Projection> projection =
-            new osg::Projection(osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7));
-        projection->setCullingActive(false);
-        projection->addChild(isFamily ? family->asNode() : tile->asNode());
-        globe.root->addChild(projection);
-        EXPECT_TRUE(globe.draws(*tile, view)) << isFamily;
+        return camera;
+    };
+    const osg::ref_ptr<osg::Projection> projection = new osg::Projection(orthographic);
+    projection->setCullingActive(false);
+    for (const auto& between : {makeCamera(true), makeCamera(false), osg::ref_ptr<osg::Group>(projection)}) {
+        for (const bool isFamily : {false, true}) {
+            MeshGlobe globe;
+            // 45 degrees and more from the eye
+            const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
+            const osg::ref_ptr<osg::Group> family = new osg::Group;
+            globe.root->replaceChild(tile, family);
+            family->addChild(tile);
+            installBins(*globe.root);
+            EXPECT_FALSE(globe.draws(*tile, view));
+            between->addChild(isFamily ? family->asNode() : tile->asNode());
+            globe.root->addChild(between);
+            EXPECT_TRUE(globe.draws(*tile, view)) << between->className() << isFamily;
+            between->removeChildren(0, 1);
+        }
     }
 }
 

@@ -192,15 +192,6 @@ osg::Matrixd alongX(double eye) {
     return osg::Matrixd::lookAt(osg::Vec3d(eye, 0, 0), osg::Vec3d(eye + 1.0, 0, 0), osg::Vec3d(0, 0, 1));
 }
 
-// With OSG's default depth test, LESS, the farthest surface is drawn then.
-TEST(Projections, ReversedDepthHidesNothing) {
-    CameraGlobe globe(horizonOptions());
-    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-    EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
-    view.projection = reversed(view.projection);
-    EXPECT_EQ(lookOf(globe, view).reached.size(), 128u);
-}
-
 // With near and far computed, OSG draws nothing that is wholly behind the eye of an orthographic camera.
 TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
     CameraGlobe globe(horizonOptions());
