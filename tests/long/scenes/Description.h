@@ -173,9 +173,10 @@ enum class Hook {
 /// One ingredient or event.
 struct Part {
     PartKind kind = PartKind::Tower;
-    int id = 0;     ///< tells parts of one scene apart
-    int frame = 0;  ///< 0: from the beginning
-    int until = 0;  ///< the frame that takes it away again; 0: none
+    int id = 0;           ///< tells parts of one scene apart
+    int frame = 0;        ///< 0: from the beginning
+    int until = 0;        ///< the frame that takes it away again; 0: none
+    bool isLate = false;  ///< after the update traversal of its frame, else before
     Hook hook = Hook::Globe;
     TileKey tile;
     int variant = 0;

@@ -80,9 +80,9 @@ void addTraffic(const Part& part, const Description& description, osg::Node& nod
     group->addChild(traffic);
 }
 
-// Variants: masked; taken away; a plain group in its place; levels that are shown only from nearby.
+// Variants: masked; taken away; a plain group in its place; levels that are shown only from nearby; no mask any more.
 void vanish(int variant, osg::Node& node) {
-    if (variant == 0) return node.setNodeMask(0);
+    if (variant % 4 == 0) return node.setNodeMask(variant == 0 ? 0 : ~0u);
     auto* const levels = dynamic_cast<osg::LOD*>(&node);
     for (unsigned int i = 0; variant == 3 && levels && i < levels->getNumRanges(); ++i) levels->setRange(i, 0.0f, 1.0f);
     if (variant == 3) return;

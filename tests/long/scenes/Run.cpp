@@ -240,13 +240,10 @@ private:
         _stamp->setFrameNumber(static_cast<unsigned int>(frame));
         _stamp->setReferenceTime(frame * kFrameTime);
         _stamp->setSimulationTime(frame * kFrameTime);
-        for (const Part& part : _description.parts) {
-            if (part.until == frame) remove(part);
-            if (part.frame != frame) continue;
-            if (auto failure = happen(part)) return failure;
-        }
+        if (auto failure = happenIn(frame, false)) return failure;
         _without.update(*_stamp);
         _with.update(*_stamp);
+        if (auto failure = happenIn(frame, true)) return failure;
         if (!view.isActive) return std::nullopt;
         const Delivery with = _with.deliver(view, *_stamp, _painter);
         const Delivery without = _without.deliver(_painter ? withNearPlaneOf(with, view) : view, *_stamp, _painter);
@@ -374,6 +371,16 @@ private:
         beginView(part);
         applyPart(part, _description, *_without.root);
         applyPart(part, _description, *_with.root);
+    }
+
+    std::optional<Failure> happenIn(int frame, bool isLate) {
+        for (const Part& part : _description.parts) {
+            if (part.isLate != isLate) continue;
+            if (part.until == frame) remove(part);
+            if (part.frame != frame) continue;
+            if (auto failure = happen(part)) return failure;
+        }
+        return std::nullopt;
     }
 
     std::optional<Failure> happen(const Part& part) {

@@ -197,6 +197,7 @@ void eachField(Table& table, Part& part) {
     table("id", part.id);
     table("frame", part.frame);
     table("until", part.until);
+    table("late", part.isLate);
     table("hook", part.hook);
     table("tile", part.tile);
     StateName state{part.variant};
