@@ -5,7 +5,6 @@
 // known not to cut anything open: meshes, states, callbacks, whatever an application makes of them. More of it, and all
 // states one by one: tests/scenes.
 
-#include "KitTest.h"
 #include "RidgeGlobe.h"
 
 #include <osg/PositionAttitudeTransform>
@@ -155,10 +154,6 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     }
 }
 
-void ignoreDepth(osg::Node& node) {
-    node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-}
-
 // A globe with a file below the tile on its other side.
 struct AntipodeFile : MeshGlobe {
     AntipodeFile() {
@@ -292,16 +287,10 @@ struct ComputedPlanes {
 
     [[nodiscard]] bool hidesFarTile() { return !globe.drawsFarTile(view); }
 
-    // A point in the frame of the scene.
-    static osg::ref_ptr<osg::Geometry> drawableAt(const osg::Vec3& point) {
-        osg::ref_ptr<osg::Geometry> drawable = new osg::Geometry;
-        drawable->setVertexArray(new osg::Vec3Array(1, &point));
-        drawable->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 1));
-        return drawable;
-    }
     // At a distance ahead of the eye, in metres.
     [[nodiscard]] osg::ref_ptr<osg::Geometry> drawableAhead(double distance) const {
-        return drawableAt(osg::Vec3d(0.0, 0.0, -distance) * osg::Matrixd::inverse(view.modelView));
+        const osg::Vec3 point(osg::Vec3d(0.0, 0.0, -distance) * osg::Matrixd::inverse(view.modelView));
+        return makeGeometry(new osg::Vec3Array(1, &point), new osg::DrawArrays(GL_POINTS, 0, 1));
     }
 
     RidgeGlobe globe;
@@ -309,8 +298,13 @@ struct ComputedPlanes {
     CullView view = RidgeGlobe::alongRow();
 };
 
+// The plane is where OSG puts it when all is drawn that is not hidden, not where it would be with less.
 TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
     ComputedPlanes planes;
+    EXPECT_TRUE(planes.hidesFarTile());
+    planes.globe.visitor->setNearFarRatio(0.05);  // the ridge is in front of it
+    EXPECT_FALSE(planes.hidesFarTile());
+    planes.globe.visitor->setNearFarRatio(1e-5);
     EXPECT_TRUE(planes.hidesFarTile());
     planes.scene->addChild(planes.drawableAhead(1e6));
     EXPECT_TRUE(planes.hidesFarTile());
@@ -319,12 +313,7 @@ TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
     overlay->addChild(planes.drawableAhead(1e10));
     planes.scene->addChild(overlay);
     EXPECT_TRUE(planes.hidesFarTile());
-}
-
-// OSG moves an oblique plane along the look direction.
-TEST(ComputedNear, IsNotKnownOfAnObliquePlane) {
-    ComputedPlanes planes;
-    EXPECT_TRUE(planes.hidesFarTile());
+    // OSG moves an oblique plane along the look direction
     planes.view.projection(0, 2) = 0.1;
     EXPECT_FALSE(planes.hidesFarTile());
 }
@@ -395,16 +384,6 @@ TEST(ComputedNear, IsUnknownBesideWhatIsUnknown) {
     EXPECT_FALSE(derived.hidesFarTile());
     setDrawsAsCullVisitor(*derived.globe.visitor);
     EXPECT_TRUE(derived.hidesFarTile());
-}
-
-// The plane is where OSG puts it when all is drawn that is not hidden, not where it would be with less.
-TEST(ComputedNear, CutsAwayWhatItReaches) {
-    ComputedPlanes planes;
-    EXPECT_TRUE(planes.hidesFarTile());
-    planes.globe.visitor->setNearFarRatio(0.05);  // the ridge is in front of it
-    EXPECT_FALSE(planes.hidesFarTile());
-    planes.globe.visitor->setNearFarRatio(1e-5);
-    EXPECT_TRUE(planes.hidesFarTile());
 }
 
 }  // namespace

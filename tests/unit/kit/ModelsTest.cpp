@@ -58,37 +58,29 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     globe.settle();
     EXPECT_FALSE(globe.isLookedAt(*later.model));
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
-}
-
-TEST(Models, BesideTilesAreLeftToOsgWhereOthersMove) {
-    GlobeWithModels globe;
-    const osg::ref_ptr<osg::MatrixTransform> moving = makeTower(ecefDeg(20, 20, 100.0));
-    globe.root->addChild(globe.models.group);
-    globe.root->addChild(moving);
-    globe.install();
-    moving->setMatrix(osg::Matrixd::translate(ecefDeg(20, 21, 100.0)));
-    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
-}
-
-// Tiles below a transform are not tested together; nor are those below an osgTerrain::Terrain.
-TEST(Models, BesideTilesBelowATransformAreLeftToOsg) {
-    GlobeWithModels globe;
+    // tiles below a transform are not tested together; nor are those below an osgTerrain::Terrain
+    GlobeWithModels moved;
     const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
-    for (const auto& tile : globe.tiles) above->addChild(tile);
-    above->addChild(globe.models.group);
-    globe.root->removeChildren(0, globe.root->getNumChildren());
-    globe.root->addChild(above);
-    globe.install();
-    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
-}
-
-TEST(Models, InTheFileOfATileAreLeftToOsg) {
-    GlobeWithModels globe;
-    const auto level = makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), globe.models.group});
-    setFinerWithin(*globe.tiles[19], 1e9f);
-    putBelow(*globe.tiles[19], level);
-    globe.install();
-    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+    for (const auto& tile : moved.tiles) above->addChild(tile);
+    above->addChild(moved.models.group);
+    moved.root->removeChildren(0, moved.root->getNumChildren());
+    moved.root->addChild(above);
+    moved.install();
+    EXPECT_FALSE(moved.isLookedAt(*moved.models.model));
+    // in the file of a tile
+    GlobeWithModels filed;
+    setFinerWithin(*filed.tiles[19], 1e9f);
+    putBelow(*filed.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), filed.models.group}).release());
+    filed.install();
+    EXPECT_FALSE(filed.isLookedAt(*filed.models.model));
+    // where others move
+    GlobeWithModels moving;
+    const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(ecefDeg(20, 20, 100.0));
+    moving.root->addChild(moving.models.group);
+    moving.root->addChild(tower);
+    moving.install();
+    tower->setMatrix(osg::Matrixd::translate(ecefDeg(20, 21, 100.0)));
+    EXPECT_FALSE(moving.isLookedAt(*moving.models.model));
 }
 
 // What adds to a tile's own mesh does not cover anything.
@@ -279,14 +271,6 @@ TEST(Rest, IsForEachOfManyDatabases) {
     EXPECT_TRUE(globe.rests(ofAllTiles()));
 }
 
-TEST(Rest, IsNotForTilesThatTheHorizonHides) {
-    EXPECT_FALSE(RestingGlobe(declaredHorizon()).rests(ofAllTiles()));
-}
-
-TEST(Rest, IsNotForMeshesThatAreDrawnDirectly) {
-    EXPECT_FALSE(RestingGlobe(optionsOf("horizon=off"), new osgUtil::CullVisitor).rests(ofAllTiles()));
-}
-
 // OSG's spheres are those of the terrain without it.
 TEST(Rest, IsNotForTerrainWithAVerticalScale) {
     RestingGlobe globe(optionsOf("horizon=off"));
@@ -301,14 +285,14 @@ TEST(Rest, IsNotForTerrainWithAVerticalScale) {
     EXPECT_FALSE(globe.rests(ofAllTiles()));
 }
 
-TEST(Rest, IsNotForVisitorsThatWatchTiles) {
-    RestingGlobe globe(optionsOf("horizon=off"));
-    BinStatistics::of(*globe.visitor).setTileByTile(true);
-    EXPECT_FALSE(globe.rests(ofAllTiles()));
-}
-
-// The application's sphere lies: OSG would leave the tile out.
-TEST(Rest, IsNotForTilesThatOsgWouldLeaveOut) {
+// And for meshes that are drawn directly, and visitors that watch tiles.
+TEST(Rest, IsNotForTilesThatTheHorizonHidesOrOsgWouldLeaveOut) {
+    EXPECT_FALSE(RestingGlobe(declaredHorizon()).rests(ofAllTiles()));
+    EXPECT_FALSE(RestingGlobe(optionsOf("horizon=off"), new osgUtil::CullVisitor).rests(ofAllTiles()));
+    RestingGlobe watched(optionsOf("horizon=off"));
+    BinStatistics::of(*watched.visitor).setTileByTile(true);
+    EXPECT_FALSE(watched.rests(ofAllTiles()));
+    // the application's sphere lies
     struct LyingBound : osg::Node::ComputeBoundingSphereCallback {
         osg::BoundingSphere computeBound(const osg::Node&) const override {
             return {osg::Vec3f(0.0f, 0.0f, 3e8f), 1.0f};

@@ -6,7 +6,6 @@
 // osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they have read.
 
 #include "CountedReads.h"
-#include "KitTest.h"
 #include "PagedFlight.h"
 
 #include <osgDB/FileCache>
@@ -92,8 +91,10 @@ TEST_F(Paging, ReadFileCallbacksAndOptionsOfTheUserStillWork) {
     }
 }
 
-AnalyticBinCullCallback* firstCallback(osg::Node* file) {
-    return file ? installedOn(*file->asGroup()->getChild(0)) : nullptr;
+// The callback of the tile in what was read from "children.osgb", under any number of groups.
+AnalyticBinCullCallback* callbackIn(osg::Node* node) {
+    while (node && !dynamic_cast<osg::PagedLOD*>(node)) node = node->asGroup()->getChild(0);
+    return node ? installedOn(*node) : nullptr;
 }
 
 TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
@@ -105,9 +106,9 @@ TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
     installBins(*_root);
     const osg::ref_ptr<osg::Node> here = readChildren(),
                                   there = osgDB::readRefNodeFile(file("children.osgb"), readOptionsOf(*tile));
-    ASSERT_TRUE(firstCallback(here) && firstCallback(there));
-    EXPECT_TRUE(firstCallback(here)->getLocalToEcef().isIdentity());
-    EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
+    ASSERT_TRUE(callbackIn(here) && callbackIn(there));
+    EXPECT_TRUE(callbackIn(here)->getLocalToEcef().isIdentity());
+    EXPECT_EQ(callbackIn(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
@@ -122,8 +123,8 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
     osgDB::Registry::instance()->setFileCache(cache);
     const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(copy, readOptionsOf(*tile));
     osgDB::Registry::instance()->setFileCache(nullptr);
-    ASSERT_NE(firstCallback(there), nullptr);
-    EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
+    ASSERT_NE(callbackIn(there), nullptr);
+    EXPECT_EQ(callbackIn(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
@@ -238,24 +239,10 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
     }
 }
 
-const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
-
-osg::ref_ptr<osg::PagedLOD> makeCachedTile(const std::string& fileName) {
-    osg::ref_ptr<osg::PagedLOD> paged = makePaged(new osg::Group, fileName);
-    setStoredBin(*paged, kCachedBin);
-    return paged;
-}
-
-// The callback of the tile in what was read from "children.osgb", under any number of groups.
-AnalyticBinCullCallback* callbackIn(osg::Node* node) {
-    while (node && !dynamic_cast<osg::PagedLOD*>(node)) node = node->asGroup()->getChild(0);
-    return node ? installedOn(*node) : nullptr;
-}
-
 class ObjectCache : public ::testing::Test {
 protected:
     void SetUp() override {
-        ASSERT_TRUE(osgDB::writeNodeFile(*makeGroup({makeCachedTile("grandchildren.osgb")}), _file));
+        ASSERT_TRUE(osgDB::writeNodeFile(*makeGroup({makePagedTile("grandchildren.osgb")}), _file));
     }
     void TearDown() override { osgDB::Registry::instance()->clearObjectCache(); }
 
@@ -268,7 +255,7 @@ protected:
         own->setReadFileCallback(_reader);
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
         root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid));
-        const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
+        const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
         tile->setDatabaseOptions(own);
         root->addChild(tile);
         installBins(*root, cullOptions);
@@ -315,7 +302,7 @@ TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
         own->setObjectCacheHint(osgDB::Options::CACHE_ALL);
         own->setReadFileCallback(new Reader);
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-        const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
+        const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
         tile->setDatabaseOptions(own);
         root->addChild(tile);
         installBins(*root);
