@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // On the earth. Every point of meshes and grids: PlanetMeshesTest. Oracles: points of the triangles, taken back to
-// latitude, longitude and altitude in long double; and GeodeticMeshBounds.
+// latitude, longitude and altitude in long double; and GeodeticMeshBounds. MeshCover: a mesh fills its rectangle only
+// where every normal meets a front face. Oracles: meshes that are whole by construction, with and without a triangle;
+// lines along the normals of random places, against all triangles.
 
 #include "CoreTest.h"
 #include "MeshSamples.h"
@@ -116,6 +118,187 @@ TEST(GeodeticGridBounds, IsKnownOnPlanetsLikeTheEarth) {
             EXPECT_EQ(GeodeticGridBounds(ellipsoid, grid, reach).isKnown(), isEarthLike) << planet;
         EXPECT_FALSE(GeodeticGridBounds(ellipsoid, grid, 0.1001 * smaller).isKnown()) << planet;
     }
+}
+
+constexpr double kDegree = 0.017453292519943295;
+const core::Ellipsoid kEarth(6378137.0, 6356752.314245);
+
+core::GeodeticBin extentsDeg(double south, double north, double west, double east) {
+    const double relief = std::min(1.0, north - south);
+    return {{south * kDegree, north * kDegree}, {west * kDegree, east * kDegree}, {-400.0 * relief, 3000.0 * relief}};
+}
+
+// Poles, the date line, many turns around, tiles of any size, and the whole globe.
+const std::vector<core::GeodeticBin> kExtents{
+    extentsDeg(0.0, 45.0, 0.0, 45.0),      extentsDeg(45.0, 90.0, 90.0, 135.0),  extentsDeg(-90.0, -45.0, 0.0, 45.0),
+    extentsDeg(-90.0, 90.0, -180.0, 0.0),  extentsDeg(-90.0, 90.0, 0.0, 180.0),  extentsDeg(-90.0, 90.0, -180.0, 180.0),
+    extentsDeg(10.0, 11.0, 179.5, 180.5),  extentsDeg(47.0, 47.01, 8.0, 8.01),   extentsDeg(60.0, 90.0, -180.0, 180.0),
+    extentsDeg(-20.0, 20.0, 170.0, 350.0), extentsDeg(-40.0, 30.0, -30.0, 170.0)};
+
+double tolerance(const core::Interval& interval) {
+    return 2.0 * core::MeshCover::kTolerance * interval.width();
+}
+
+void expectSame(const core::GeodeticBin& place, const core::GeodeticBin& extents) {
+    ASSERT_FALSE(place.empty());
+    EXPECT_NEAR(place.latitude().lower, extents.latitude().lower, tolerance(extents.latitude()));
+    EXPECT_NEAR(place.latitude().upper, extents.latitude().upper, tolerance(extents.latitude()));
+    EXPECT_NEAR(place.longitude().width(), extents.longitude().width(), tolerance(extents.longitude()));
+    const double turn = std::remainder(place.longitude().lower - extents.longitude().lower, 2.0 * 3.14159265358979);
+    EXPECT_NEAR(extents.isFullCircle() ? 0.0 : turn, 0.0, tolerance(extents.longitude()));
+}
+
+std::array<std::uint32_t, 3> cornersAt(const core::EcefMesh& mesh, std::size_t first) {
+    return {mesh.triangles[first], mesh.triangles[first + 1], mesh.triangles[first + 2]};
+}
+
+core::EcefMesh without(const core::EcefMesh& mesh, std::size_t first) {
+    core::EcefMesh less = mesh;
+    const auto at = less.triangles.begin() + static_cast<std::ptrdiff_t>(first);
+    less.triangles.erase(at, at + 3);
+    return less;
+}
+
+// Front faces less back faces on the normal through a place, far from edges by chance.
+int facesAt(const core::EcefMesh& mesh, const core::Geodetic& at) {
+    const glm::dvec3 foot = kEarth.toEcef({at.latitude, at.longitude, 0.0}), up = kEarth.up(at.latitude, at.longitude);
+    int count = 0;
+    for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
+        const Triangle triangle = triangleAt(mesh, first);
+        const std::array<glm::dvec3, 3> t{triangle.a, triangle.b, triangle.c};
+        const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+        const double slope = glm::dot(normal, up);
+        if (slope == 0.0) continue;
+        const double height = glm::dot(normal, t[0] - foot) / slope;
+        const glm::dvec3 hit = foot + height * up;
+        bool isInside = height > -3e6;
+        for (std::size_t k = 0; k < 3; ++k)
+            isInside = isInside && glm::dot(glm::cross(t[(k + 1) % 3] - t[k], hit - t[k]), normal) >= 0.0;
+        if (isInside) count += slope > 0.0 ? 1 : -1;
+    }
+    return count;
+}
+
+TEST(MeshCover, IsThatOfAGridWithAndWithoutSkirts) {
+    Random random(1);
+    for (const core::GeodeticBin& extents : kExtents) {
+        for (const std::uint32_t cells : {9U, 17U}) {
+            const core::EcefMesh grid = gridMesh(random, kEarth, extents, cells);
+            for (const core::EcefMesh& mesh : {grid, withSkirts(kEarth, grid, cells, 2000.0), unmerged(grid)}) {
+                const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+                EXPECT_TRUE(cover.isFilled) << extents.latitude().lower / kDegree << ' ' << cells;
+                expectSame(cover.place, extents);
+            }
+        }
+    }
+}
+
+TEST(MeshCover, EndsWhereAVertexOfTheBorderIsWithinIt) {
+    Random random(4);
+    const core::GeodeticBin extents = extentsDeg(10.0, 20.0, 30.0, 40.0);
+    const double metre = 1.0 / 6335439.0;  // radians of latitude
+    for (const double metres : {0.5, 5.0, 500.0, 20000.0}) {
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
+        moveVertex(mesh, 4, glm::dvec3(0.0, 0.0, metres));  // northward, into the place
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        EXPECT_EQ(cover.isFilled, metres < 1000.0) << metres;
+        if (!cover.isFilled) continue;
+        EXPECT_NEAR(cover.place.latitude().lower, extents.latitude().lower + 0.98 * metres * metre,
+                    0.03 * metres * metre);
+        // a vertex within does not matter
+        core::EcefMesh within = gridMesh(random, kEarth, extents, 9);
+        moveVertex(within, 44, glm::dvec3(0.0, 0.0, metres));
+        const core::MeshCover same = core::MeshCover::of(kEarth, within);
+        EXPECT_TRUE(same.isFilled) << metres;
+        expectSame(same.place, extents);
+    }
+}
+
+// Float vertices about the tile's middle.
+TEST(MeshCover, IsFilledByRoundedVertices) {
+    Random random(5);
+    for (const core::GeodeticBin& extents : kExtents) {
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 16);
+        const core::Geodetic middle{extents.latitude().middle(), extents.longitude().middle(), 0.0};
+        const glm::dvec3 origin = extents.isFullCircle() ? glm::dvec3(0.0) : kEarth.toEcef(middle);
+        const auto rounded = [](double value, double about) {
+            return about + static_cast<double>(static_cast<float>(value - about));
+        };
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            mesh.x[i] = rounded(mesh.x[i], origin.x);
+            mesh.y[i] = rounded(mesh.y[i], origin.y);
+            mesh.z[i] = rounded(mesh.z[i], origin.z);
+        }
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        EXPECT_TRUE(cover.isFilled) << extents.latitude().lower / kDegree << ' ' << extents.longitude().lower / kDegree;
+        expectSame(cover.place, extents);
+    }
+}
+
+TEST(MeshCover, IsThatOfAMap) {
+    constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
+    Random random(7);
+    const core::Ellipsoid plane = core::Ellipsoid::plane();
+    const core::GeodeticBin extents({4600000.0 / kUnits, 4601000.0 / kUnits}, {500000.0 / kUnits, 501000.0 / kUnits},
+                                    {0.0, 60.0});
+    const core::EcefMesh mesh = gridMesh(random, plane, extents, 4);
+    const core::MeshCover cover = core::MeshCover::of(plane, mesh);
+    EXPECT_TRUE(cover.isFilled);
+    EXPECT_NEAR(cover.place.longitude().width() * kUnits, 1000.0, 1e-3);
+    for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3)
+        EXPECT_FALSE(core::MeshCover::of(plane, without(mesh, first)).isFilled);
+}
+
+// Triangles taken away, turned around, doubled, moved: whatever is left, it is filled only where it says so.
+TEST(MeshCover, HasAFrontFaceOnEachNormalOfAFilledPlace) {
+    Random random(6);
+    int filled = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+        const core::GeodeticBin& extents = kExtents[static_cast<std::size_t>(random.integer(0, 10))];
+        const auto cells = static_cast<std::uint32_t>(random.integer(8, 10));
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, cells);
+        if (random.chance(0.5)) mesh = withSkirts(kEarth, mesh, cells, random.logUniform(10.0, 20000.0));
+        for (int change = random.integer(0, 2); change > 0; --change) {
+            const auto last = static_cast<int>(mesh.triangles.size() / 3) - 1;
+            const auto first = static_cast<std::size_t>(3 * random.integer(0, last));
+            const auto corners = cornersAt(mesh, first);
+            switch (random.integer(0, 4)) {
+                case 0:
+                    mesh = without(mesh, first);
+                    break;
+                case 1:
+                    std::swap(mesh.triangles[first], mesh.triangles[first + 1]);
+                    break;
+                case 2:
+                    mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+                    break;
+                case 3:
+                    mesh.triangles.insert(mesh.triangles.end(), {corners[1], corners[0], corners[2]});
+                    break;
+                default:
+                    moveVertex(mesh, corners[0], random.logUniform(1.0, 1e5) * random.direction());
+                    break;
+            }
+        }
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        if (!cover.isFilled) continue;
+        ++filled;
+        for (int i = 0; i < 40; ++i) {
+            // chords along parallels bulge toward the pole
+            const double south = cover.place.latitude().lower, north = cover.place.latitude().upper;
+            const double cell = extents.longitude().width() / static_cast<double>(cells), bulge = 0.14 * cell * cell;
+            const double lower =
+                south <= -1.5707 ? south : south + (south > -1e-6 ? bulge : 0.0) + 1e-5 * (north - south);
+            const double upper =
+                north >= 1.5707 ? north : north - (north < 1e-6 ? bulge : 0.0) - 1e-5 * (north - south);
+            const core::Geodetic at{
+                random.uniform(lower, upper),
+                cover.place.longitude().lower + cover.place.longitude().width() * random.uniform(1e-5, 1.0 - 1e-5),
+                0.0};
+            EXPECT_GT(facesAt(mesh, at), 0) << trial << ' ' << at.latitude / kDegree << ' ' << at.longitude / kDegree;
+        }
+    }
+    EXPECT_GT(filled, 300);
 }
 
 }  // namespace

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Bins of a map: boxes in the plane. Oracle: their eight corners. Terrain in maps: HorizonBufferTest.cpp,
-// GroundPlatesTest.cpp, CoveredRegionTest.cpp.
+// GroundPlatesTest.cpp, HorizonTest.cpp.
 
 #include "CoreTest.h"
 #include "MeshSamples.h"
-
-#include <variant>
 
 namespace osgAnalyticBin::test {
 namespace {

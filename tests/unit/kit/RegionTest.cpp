@@ -3,7 +3,7 @@
 //
 // Databases that cover a part of the globe: their horizon, and when those of other builders, which declare none, have
 // one; and skirts at their border, where no neighbour stands before them. Oracle of these: the triangles that
-// osgTerrain draws. More regions: tests/scenes. What the core proves: CoveredRegionTest.cpp.
+// osgTerrain draws. More regions: tests/scenes. What the core proves: HorizonTest.cpp.
 
 #include "KitTest.h"
 
