@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-#include <string>
 #include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::test {

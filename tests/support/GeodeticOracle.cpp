@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <support/GeodeticOracle.h>
 
 namespace osgAnalyticBin::test {

@@ -3,12 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
-
-#include <array>
-#include <cstddef>
 
 namespace osgAnalyticBin::test {
 

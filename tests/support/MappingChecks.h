@@ -9,12 +9,8 @@
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/mappings/AutodiffMapping.h>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <support/GeodeticOracle.h>
 #include <support/Random.h>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/Image>
 #include <osg/PagedLOD>
 #include <osg/Texture2D>

@@ -3,11 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/GeodeticBin.h>
-
-#include <algorithm>
-#include <array>
 #include <ostream>
 #include <support/RandomBins.h>
 

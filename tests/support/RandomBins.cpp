@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {

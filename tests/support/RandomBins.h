@@ -3,11 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/Plane.h>
-
-#include <array>
 #include <support/GeodeticOracle.h>
 #include <support/Random.h>
 

@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <support/RandomViews.h>
 
 namespace osgAnalyticBin::test {

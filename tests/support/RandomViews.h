@@ -3,18 +3,10 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 
-#include <glm/vec3.hpp>
-
-#include <support/GeodeticOracle.h>
-#include <support/Random.h>
 #include <support/RandomBins.h>
 #include <support/View.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

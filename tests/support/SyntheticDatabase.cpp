@@ -5,9 +5,6 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>

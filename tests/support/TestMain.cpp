@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
 

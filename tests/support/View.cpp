@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <ccd/ccd.h>
-#include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <support/View.h>
 
 namespace osgAnalyticBin::test {

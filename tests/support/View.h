@@ -3,14 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/Plane.h>
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <limits>
 #include <support/GeodeticOracle.h>
 #include <support/Random.h>
 #include <vector>

@@ -17,12 +17,8 @@
 #include <DemMosaic.h>
 #include <Failure.h>
 #include <Settings.h>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace {

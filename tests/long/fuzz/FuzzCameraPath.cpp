@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <string>
 
 using namespace osgAnalyticBin;
 

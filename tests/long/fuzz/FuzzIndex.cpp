@@ -10,7 +10,6 @@
 
 #include <index/Checksum.h>
 #include <sstream>
-#include <string>
 
 using namespace osgAnalyticBin;
 

@@ -8,7 +8,6 @@
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <cmath>
-#include <string>
 
 using namespace osgAnalyticBin;
 

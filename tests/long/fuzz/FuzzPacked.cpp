@@ -10,7 +10,6 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <cmath>
-#include <string>
 
 using namespace osgAnalyticBin;
 

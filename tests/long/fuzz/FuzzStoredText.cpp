@@ -14,9 +14,7 @@
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
-#include <array>
 #include <sstream>
-#include <string>
 
 using namespace osgAnalyticBin;
 

@@ -7,28 +7,20 @@
 #include "Fuzz.h"
 #include "TileScene.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Geometry>
 #include <osg/Notify>
-#include <osg/PagedLOD>
 #include <osg/ValueObject>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgTerrain/TerrainTile>
 #include <osgUtil/UpdateVisitor>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <kit/CullFixture.h>
-#include <map>
-#include <string>
-#include <vector>
 
 using namespace osgAnalyticBin;
 using namespace osgAnalyticBin::test;

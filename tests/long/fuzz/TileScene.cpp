@@ -4,10 +4,7 @@
 #include "TileScene.h"
 
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/LOD>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Switch>
@@ -17,7 +14,6 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <sstream>

@@ -8,8 +8,6 @@
 
 #include "Includes.h"
 
-#include <osgAnalyticBin/CullOptions.h>
-
 #include <osg/CullSettings>
 
 namespace osgAnalyticBin::test {

@@ -6,12 +6,7 @@
 #pragma once
 
 #include "Description.h"
-#include "Painter.h"
 #include "Recorder.h"
-
-#include <osg/BoundingSphere>
-
-#include <cstddef>
 
 namespace osgAnalyticBin::test {
 

@@ -8,7 +8,6 @@
 #include "Includes.h"
 
 #include <osg/GraphicsContext>
-#include <osg/ref_ptr>
 #include <osgUtil/RenderStage>
 
 namespace osgAnalyticBin::test {

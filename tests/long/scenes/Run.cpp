@@ -6,9 +6,7 @@
 #include "Builder.h"
 #include "Callbacks.h"
 #include "Meshes.h"
-#include "Oracle.h"
 #include "Parts.h"
-#include "Recorder.h"
 #include "States.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "Description.h"
 #include "Oracle.h"
 
 namespace osgAnalyticBin::test {

@@ -4,7 +4,6 @@
 // Culls random low views of a real database twice: by OSG alone, and with bins and terrain occlusion. Checks that every
 // drawable that has a pixel in OSG's picture is drawn with bins. tests/README.md says how to run it.
 
-#include "Painter.h"
 #include "Recorder.h"
 
 #include <osgDB/FileNameUtils>

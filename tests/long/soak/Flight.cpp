@@ -11,8 +11,6 @@
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstring>

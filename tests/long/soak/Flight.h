@@ -10,12 +10,9 @@
 #include <osg/Group>
 #include <osg/observer_ptr>
 
-#include <cstddef>
 #include <map>
 #include <memory>
-#include <string>
 #include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

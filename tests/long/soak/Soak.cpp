@@ -8,7 +8,6 @@
 #include "PagedScenes.h"
 #include "Process.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>

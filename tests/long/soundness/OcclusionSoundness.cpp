@@ -8,14 +8,8 @@
 #include "LongRun.h"
 #include "OcclusionScene.h"
 
-#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
-
-#include <array>
-#include <atomic>
 #include <cinttypes>
 #include <cstdio>
-#include <thread>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

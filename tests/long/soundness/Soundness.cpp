@@ -15,27 +15,16 @@
 #include "HorizonPoint.h"
 #include "LongRun.h"
 
-#include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <array>
 #include <cinttypes>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <support/Planets.h>
-#include <support/RandomBins.h>
 #include <support/RandomViews.h>
-#include <support/View.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,15 +5,12 @@
 
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-
 #include <osg/PagedLOD>
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
 #include <cmath>
-#include <functional>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {

@@ -9,22 +9,18 @@
 #include "PagedScenes.h"
 #include "ViewerRig.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
-#include <osgTerrain/Terrain>
 #include <osgUtil/SceneView>
 #include <osgUtil/UpdateVisitor>
 #include <osgViewer/Renderer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <array>
 #include <chrono>
 #include <iterator>
 #include <kit/DatabaseFixture.h>

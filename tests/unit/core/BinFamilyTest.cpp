@@ -3,7 +3,6 @@
 
 // Oracles: classify() of a bin by itself (tested in PlaneSetTest) and HorizonEye::hides() (HorizonTest), bit for bit.
 
-#include "CoreTest.h"
 #include "FamilySamples.h"
 
 namespace osgAnalyticBin::test {

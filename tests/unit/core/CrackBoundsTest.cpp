@@ -4,7 +4,6 @@
 // What cracks between tiles can show. Oracle: points of chords and triangles in long double, of every neighbour that a
 // tile of a quadtree can have.
 
-#include "CoreTest.h"
 #include "CrackSamples.h"
 
 namespace osgAnalyticBin::core::cracks {

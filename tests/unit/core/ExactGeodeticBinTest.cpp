@@ -5,7 +5,6 @@
 // bin. Ten million more pairs of bin and plane: Soundness.cpp. Many planes at once: PlaneSetTest.
 
 #include "BinChecks.h"
-#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "CoreTest.h"
 
-#include <optional>
-
 namespace osgAnalyticBin::test {
 
 /// In which form a slot of a family got its bin.

@@ -4,7 +4,6 @@
 // How deep meshes that are finer than a tile dip below their posts. Oracle: points of chords and triangles in long
 // double.
 
-#include "CoreTest.h"
 #include "CrackSamples.h"
 
 namespace osgAnalyticBin::core::cracks {

@@ -6,8 +6,6 @@
 
 #include "CoreTest.h"
 
-#include <bitset>
-
 namespace osgAnalyticBin::test {
 namespace {
 

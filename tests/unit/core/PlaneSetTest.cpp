@@ -4,7 +4,6 @@
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
 // kernels bit for bit. And the plane's sign convention and the mask semantics of classify().
 
-#include "CoreTest.h"
 #include "FamilySamples.h"
 
 namespace osgAnalyticBin::test {

@@ -5,7 +5,6 @@
 
 #include "CoreTest.h"
 #include "MeshSamples.h"
-#include "TriangleSamples.h"
 
 #include <tuple>
 

@@ -8,8 +8,6 @@
 #include "CoreTest.h"
 #include "OcclusionScene.h"
 
-#include <osgAnalyticBin/core/occlusion/BinBody.h>
-
 namespace osgAnalyticBin::test {
 namespace {
 

@@ -7,12 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <osgDB/WriteFile>
-#include <osgTerrain/TerrainTile>
 #include <osgUtil/PositionalStateContainer>
 #include <osgUtil/RenderStage>
 #include <osgUtil/UpdateVisitor>
 
-#include <algorithm>
 #include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {

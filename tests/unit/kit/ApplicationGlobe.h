@@ -8,22 +8,11 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/CullOptions.h>
-
-#include <osg/CoordinateSystemNode>
 #include <osg/Drawable>
 #include <osg/Geometry>
-#include <osg/Group>
 #include <osg/Light>
-#include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osgUtil/CullVisitor>
 
-#include <set>
-#include <string>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -5,7 +5,6 @@
 // AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
 
 #include "CountedReads.h"
-#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -7,8 +7,6 @@
 
 #include <osg/Viewport>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <support/View.h>
 

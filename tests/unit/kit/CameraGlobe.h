@@ -8,17 +8,8 @@
 
 #include "CullFixture.h"
 
-#include <osg/Camera>
-#include <osg/Group>
-#include <osg/Matrixd>
-
-#include <array>
 #include <mutex>
-#include <optional>
-#include <set>
-#include <string>
 #include <support/Random.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -13,8 +13,6 @@
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
-#include <algorithm>
-#include <functional>
 #include <iterator>
 #include <utility>
 

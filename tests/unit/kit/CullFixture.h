@@ -5,20 +5,14 @@
 
 #pragma once
 
-#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
 #include <osg/Camera>
-#include <osg/CoordinateSystemNode>
 #include <osg/Group>
-#include <osg/Matrixd>
-#include <osg/NodeCallback>
 #include <osgUtil/CullVisitor>
 
 #include <functional>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -8,8 +8,6 @@
 
 #include <osgAnalyticBin/Declarations.h>
 
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 #include <osgTerrain/Layer>

@@ -13,8 +13,6 @@
 #include <osgTerrain/TerrainTile>
 
 #include <set>
-#include <string>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

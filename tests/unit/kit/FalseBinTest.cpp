@@ -8,8 +8,6 @@
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
-#include <osgDB/Options>
-
 namespace osgAnalyticBin::test {
 namespace {
 

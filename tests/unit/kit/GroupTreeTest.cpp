@@ -6,16 +6,10 @@
 // eye above the lowest surface that is shown; random databases, eyes and rays: tests/long/scenes.
 
 #include "../../../osgAnalyticBin/src/kit/CallbackChain.h"
-#include "../../../osgAnalyticBin/src/kit/cull/CullTraversal.h"
 #include "../../../osgAnalyticBin/src/kit/cull/ShownDepth.h"
 #include "../../../osgAnalyticBin/src/kit/cull/TileFamily.h"
-#include "../../../osgAnalyticBin/src/kit/cull/TileSelection.h"
 #include "../../../osgAnalyticBin/src/kit/tile/InstalledTile.h"
 #include "KitTest.h"
-
-#include <osgAnalyticBin/core/horizon/Horizon.h>
-
-#include <atomic>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -4,7 +4,6 @@
 // Models behind hills and behind the horizon. More of them: tests/scenes/models-*.scene. What the core proves:
 // SortedEarthTest.cpp, HorizonTest.cpp.
 
-#include "KitTest.h"
 #include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>

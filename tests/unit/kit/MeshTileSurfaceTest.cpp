@@ -3,7 +3,6 @@
 //
 // Surfaces of meshes. Oracle: samples of the triangles that are drawn, taken back to latitude, longitude and altitude.
 
-#include "KitTest.h"
 #include "TileSurfaceCases.h"
 
 #include <osg/PrimitiveSetIndirect>

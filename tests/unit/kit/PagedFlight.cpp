@@ -7,7 +7,6 @@
 #include <osg/PagedLOD>
 
 #include <chrono>
-#include <cmath>
 #include <support/VisitNodes.h>
 #include <thread>
 

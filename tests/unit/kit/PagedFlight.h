@@ -10,10 +10,6 @@
 #include <osgDB/DatabasePager>
 #include <osgUtil/UpdateVisitor>
 
-#include <functional>
-#include <set>
-#include <string>
-
 namespace osgAnalyticBin::test {
 
 /// A flight over a paged scene without a window: OSG's own DatabasePager and cull traversals, in the order in which

@@ -3,9 +3,6 @@
 
 #include "PlanarMap.h"
 
-#include <osg/Geode>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/WriteFile>
 #include <osgTerrain/Layer>

@@ -13,8 +13,6 @@
 #include <osg/PrimitiveSet>
 #include <osgTerrain/Terrain>
 
-#include <string>
-
 namespace osgAnalyticBin::test {
 
 struct PlanarMap {

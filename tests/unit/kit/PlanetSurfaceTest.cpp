@@ -5,7 +5,6 @@
 // kilometres and with an equatorial radius of one. Oracle: samples of the triangles that are drawn, taken back to
 // latitude, longitude and altitude.
 
-#include "KitTest.h"
 #include "TileSurfaceCases.h"
 
 #include <support/Planets.h>

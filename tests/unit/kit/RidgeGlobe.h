@@ -5,8 +5,6 @@
 
 #include "KitTest.h"
 
-#include <osg/ref_ptr>
-
 namespace osgAnalyticBin::test {
 
 inline CullOptions withOcclusion(OcclusionUse use = OcclusionUse::On) {

@@ -7,7 +7,6 @@
 
 #include "../../../osgAnalyticBin/src/kit/database/FailedReads.h"
 #include "CountedReads.h"
-#include "KitTest.h"
 #include "PagedFlight.h"
 
 #include <osg/Stats>

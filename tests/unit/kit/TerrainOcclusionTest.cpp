@@ -6,7 +6,6 @@
 // proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
-#include "KitTest.h"
 #include "RidgeGlobe.h"
 
 namespace osgAnalyticBin::test {

@@ -9,7 +9,6 @@
 #include <osg/TriangleFunctor>
 #include <osgTerrain/Layer>
 
-#include <algorithm>
 #include <cmath>
 
 namespace osgAnalyticBin::test {

@@ -5,13 +5,11 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
-#include <glm/vec3.hpp>
 #include <osg/Matrixd>
 #include <osg/Node>
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
 
-#include <array>
 #include <functional>
 #include <vector>
 

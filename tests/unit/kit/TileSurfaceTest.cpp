@@ -4,7 +4,6 @@
 // Oracle of surfaces: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, taken back to
 // latitude, longitude and altitude.
 
-#include "KitTest.h"
 #include "TileSurfaceCases.h"
 
 namespace osgAnalyticBin::test::surfaces {
