@@ -7,9 +7,6 @@
 
 #include "RidgeGlobe.h"
 
-#include <osg/PositionAttitudeTransform>
-#include <osg/Switch>
-
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -21,25 +18,6 @@ void takeVertices(osg::MatrixTransform& from, osg::PagedLOD& tile) {
     for (const osg::Vec3& vertex : verticesOf(from)) vertices->push_back(osg::Vec3d(vertex) + shift);
     geometryOf(tile).setVertexArray(vertices);
     geometryOf(tile).dirtyBound();
-}
-
-TEST(Evidence, IsMissingForAMeshThatHasBecomeNarrower) {
-    InstalledGlobe globe;
-    takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, -1.0), 0.0), *globe.tiles[19]);
-    globe.expectAntipode(true);
-}
-
-TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
-    InstalledGlobe globe;
-    const auto hidden = [&] {
-        EXPECT_FALSE(globe.drawsAntipode());
-        return globe.counts().hidden;
-    };
-    const auto before = hidden();
-    takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), -6e5), *globe.tiles[19]);
-    EXPECT_TRUE(globe.drawsAntipode());
-    update(*globe.root);
-    EXPECT_LT(hidden(), before);
 }
 
 // Shows a file with the own mesh of a tile.
@@ -218,10 +196,6 @@ TEST(WhatIgnoresDepth, IsNoticedInAModelWhoseBoundIsSaidToHaveChanged) {
     EXPECT_TRUE(globe.draws(*model, MeshGlobe::fromAbove()));
 }
 
-struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
-    osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
-};
-
 struct FarBound : osg::Node::ComputeBoundingSphereCallback {
     osg::BoundingSphere computeBound(const osg::Node&) const override { return {osg::Vec3(1e8f, 0.0f, 0.0f), 1.0f}; }
 };
@@ -239,39 +213,6 @@ TEST(SpheresOfMeshes, MayBeElsewhereBecauseOfAPart) {
         installBins(*globe.root);
         update(*globe.root);
         for (int i = 0; i < 3; ++i) EXPECT_EQ(globe.draws(*globe.tiles[15], view), isElsewhere) << i;
-    }
-}
-
-// All tiles below a node of this class, which is below the root.
-template <class Above>
-osg::ref_ptr<Above> putTilesBelow(MeshGlobe& globe) {
-    osg::ref_ptr<Above> above = new Above;
-    for (const auto& tile : globe.tiles) above->addChild(tile);
-    globe.root->removeChildren(0, globe.root->getNumChildren());
-    globe.root->addChild(above);
-    return above;
-}
-
-template <class Above>
-class InGroups : public testing::Test {};
-using Groups = testing::Types<osg::Group, osg::Geode, osg::MatrixTransform, osg::PositionAttitudeTransform,
-                              osgTerrain::Terrain, osg::Switch>;
-TYPED_TEST_SUITE(InGroups, Groups);
-
-// An application may compute the bounds of all nodes by callbacks of its own.
-TYPED_TEST(InGroups, ContentIsNoticedWhereTheBoundsOfAllNodesAreComputed) {
-    for (const bool isFromTheRoot : {false, true}) {
-        MeshGlobe globe;
-        const auto above = putTilesBelow<TypeParam>(globe);
-        installBins(*globe.root);
-        const osg::Vec3d at = ecefDeg(22.5, -22.5, 300000.0);
-        EXPECT_FALSE(globe.draws(*globe.tiles[19], beside(at)));
-        if (isFromTheRoot) globe.root->setComputeBoundingSphereCallback(new OwnBound);
-        above->setComputeBoundingSphereCallback(new OwnBound);
-        globe.tiles[19]->setComputeBoundingSphereCallback(new OwnBound);
-        const osg::ref_ptr<osg::Node> tower = makeTower(at);
-        globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
-        globe.expectDrawn(*tower, beside(at), true, 4);
     }
 }
 
