@@ -151,9 +151,10 @@ void addMasker(const Part& part, bool isNested, osg::Node& node) {
     hang(makeMasker(~kMasked), isNested, node);
 }
 
-void setBoundCallback(osg::Node::ComputeBoundingSphereCallback* callback, osg::Node& node) {
-    node.setComputeBoundingSphereCallback(callback);
-    node.dirtyBound();
+// OSG takes no notice of one that computes what it would.
+void setBoundCallback(OwnBound::Kind kind, osg::Node& node) {
+    node.setComputeBoundingSphereCallback(new OwnBound(kind));
+    if (kind != OwnBound::Right) node.dirtyBound();
 }
 
 // Variants: whether it leaves out, or draws nothing.
@@ -201,9 +202,9 @@ void addCallback(const Part& part, osg::Node& node) {
         case PartKind::Masks:
             return addMasker(part, isNested, node);
         case PartKind::BoundCallback:
-            return setBoundCallback(new OwnBound(static_cast<OwnBound::Kind>(part.variant)), node);
+            return setBoundCallback(static_cast<OwnBound::Kind>(part.variant), node);
         case PartKind::NoBoundCallback:
-            return setBoundCallback(nullptr, node);
+            return node.setComputeBoundingSphereCallback(nullptr);
         default:
             if (node.asDrawable()) setDrawableCallback(part, *node.asDrawable());
     }
