@@ -3,8 +3,6 @@
 
 #include "Flight.h"
 
-#include "Process.h"
-
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Image>

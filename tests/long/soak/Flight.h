@@ -45,6 +45,10 @@ private:
     std::map<const osg::Object*, osg::observer_ptr<osg::Object>> _known;
 };
 
+/// Says what the main thread does from now on. Where it does not report again for 60 s, the process says on stderr what
+/// it did last, prints its stack, and aborts.
+void reportProgress(const std::string& what);
+
 /// A viewer over databases, one of which stays from its beginning to its end, flown at random while everything that may
 /// change does.
 class Flight {

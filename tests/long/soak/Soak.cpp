@@ -6,16 +6,62 @@
 
 #include "Flight.h"
 #include "PagedScenes.h"
-#include "Process.h"
 
+#include <osg/ArgumentParser>
+
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <execinfo.h>
 #include <iomanip>
 #include <iostream>
+#include <malloc.h>
+#include <new>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
+#include <unistd.h>
 
 namespace osgAnalyticBin::test {
+namespace {
+
+// What operator new has handed out in this process, in all libraries, and delete has not taken back.
+std::atomic<long long> bytes{0};
+
+void* allocate(std::size_t size) noexcept {
+    void* const memory = std::malloc(size > 0 ? size : 1);
+    if (memory) bytes.fetch_add(static_cast<long long>(malloc_usable_size(memory)), std::memory_order_relaxed);
+    return memory;
+}
+
+void release(void* memory) noexcept {
+    if (!memory) return;
+    bytes.fetch_sub(static_cast<long long>(malloc_usable_size(memory)), std::memory_order_relaxed);
+    std::free(memory);
+}
+
+constexpr unsigned int kPatience = 60;  // seconds
+char last[256] = "";
+
+// Linux sends the signal to the main thread.
+void onAlarm(int) {
+    (void)!write(STDERR_FILENO, last, std::strlen(last));
+    void* frames[64];
+    backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
+    std::abort();
+}
+
+}  // namespace
+
+void reportProgress(const std::string& what) {
+    (void)std::signal(SIGALRM, onAlarm);
+    std::snprintf(last, sizeof last, "hangs for %u s: %s\n", kPatience, what.c_str());
+    (void)alarm(kPatience);
+}
+
 namespace {
 
 constexpr const char* kUsage =
@@ -27,29 +73,21 @@ constexpr const char* kUsage =
     "culling, or when objects of the kit outlive their scene; aborts when a frame takes more than 60 s.\n";
 
 struct Arguments {
-    std::size_t frames = 100000;
-    std::uint64_t seed = 1;
+    unsigned int frames = 100000, seed = 1;
     bool withBins = true;
 };
 
 // Returns: false, after a line that says why, when something is not understood.
 bool parse(int count, char** texts, Arguments& arguments) {
-    for (int i = 1; i < count; i += 2) {
-        const std::string name = texts[i];
-        const std::string value = i + 1 < count ? texts[i + 1] : "";
-        const bool isNumber = !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
-        if (name == "--frames" && isNumber) {
-            arguments.frames = std::stoul(value);
-        } else if (name == "--seed" && isNumber) {
-            arguments.seed = std::stoull(value);
-        } else if (name == "--bins" && (value == "on" || value == "off")) {
-            arguments.withBins = value == "on";
-        } else {
-            std::cerr << "osganalyticbin_soak: \"" << name << " " << value << "\" is not understood; see --help\n";
-            return false;
-        }
-    }
-    return true;
+    osg::ArgumentParser parser(&count, texts);
+    std::string bins = "on";
+    (void)parser.read("--frames", arguments.frames);
+    (void)parser.read("--seed", arguments.seed);
+    (void)parser.read("--bins", bins);
+    arguments.withBins = bins == "on";
+    if (!parser.errors() && parser.argc() == 1 && (bins == "on" || bins == "off")) return true;
+    std::cerr << "osganalyticbin_soak: an argument is not understood; see --help\n";
+    return false;
 }
 
 // Megabytes by operator new: what OpenSceneGraph and the kit hold, drivers in C left out.
@@ -58,7 +96,7 @@ struct Samples {
     const std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
 
     void add(const char* where, std::size_t frames) {
-        objects.push_back(static_cast<double>(bytesOfObjects()) / (1024.0 * 1024.0));
+        objects.push_back(static_cast<double>(bytes.load(std::memory_order_relaxed)) / (1024.0 * 1024.0));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - _start;
         std::cout << std::setw(7) << std::lround(elapsed.count()) << std::setw(9) << frames << "  " << std::setw(9)
                   << where << std::fixed << std::setprecision(3) << std::setw(12) << objects.back() << std::endl;
@@ -163,6 +201,19 @@ private:
 
 }  // namespace
 }  // namespace osgAnalyticBin::test
+
+// The process's operator new and delete: malloc's, counted. Forms that are left out call these.
+
+void* operator new(std::size_t size) {
+    if (void* memory = osgAnalyticBin::test::allocate(size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    osgAnalyticBin::test::release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    osgAnalyticBin::test::release(memory);
+}
 
 int main(int count, char** texts) {
     using namespace osgAnalyticBin::test;

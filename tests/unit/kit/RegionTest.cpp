@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
+// Which databases are taken for maps, and what bins of maps change in them.
+//
 // Databases that cover a part of the globe: their horizon, and when those of other builders, which declare none, have
 // one; and skirts at their border, where no neighbour stands before them. Oracle of these: the triangles that
 // osgTerrain draws. More regions: tests/scenes. What the core proves: HorizonTest.cpp.
@@ -172,6 +174,170 @@ TEST(Border, StoredBinsHoldSkirtsWholeThereAndWhereAsked) {
             EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), isHeld ? kSkirt : 0.0f) << isAsked << east;
         }
     }
+}
+
+enum class Callback { None, Planar, Geocentric };
+
+// Installs bins on a paged tile with this mesh. Returns: which callback the tile got.
+Callback installedOnMap(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "parts.osgb");
+    root.removeChildren(0, root.getNumChildren());
+    root.addChild(tile);
+    const std::size_t installed = installBins(root);
+    osg::Callback* callback = tile->getCullCallback();
+    EXPECT_EQ(installed, callback ? 1u : 0u);
+    EXPECT_TRUE(tile->getCullingActive());
+    if (!callback) return Callback::None;
+    const auto& bin = dynamic_cast<AnalyticBinCullCallback&>(*callback);
+    return bin.getRadiiText() == "map" ? Callback::Planar : Callback::Geocentric;
+}
+
+TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {
+    struct Row {
+        std::string format, text;
+        bool hasEllipsoid, isTerrain;
+        Callback expected;
+    };
+    const std::string utm = kUtm;
+    const std::vector<Row> rows{
+        {"WKT", utm, false, false, Callback::Planar},
+        {"WKT", utm, false, true, Callback::Planar},
+        {"", utm, false, false, Callback::Planar},
+        {"WKT", "PROJCRS[\"WGS 84 / UTM zone 33N\"]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"UTM and heights\"," + utm + ",VERT_CS[\"EGM96\"]]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"WGS 84\",GEOGCS[\"WGS 84\"],VERT_CS[\"EGM96\"]]", false, false, Callback::None},
+        {"PROJ4", "+proj=utm +zone=33 +datum=WGS84", false, false, Callback::Planar},
+        {"PROJ4", "+zone=33 +proj=utm", false, false, Callback::Planar},
+        {"PROJ4", "+proj=longlat +datum=WGS84", false, false, Callback::None},
+        {"PROJ4", "+proj=geocent", false, false, Callback::None},
+        {"WKT", "+proj=utm +zone=33", false, false, Callback::None},
+        {"PROJ4", "+init=epsg:32633", false, false, Callback::None},
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, false, Callback::None},
+        {"WKT", "GEOCCS[\"WGS 84\"]", false, false, Callback::None},
+        {"", "", false, false, Callback::None},
+        // locators say what osgTerrain draws
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, true, Callback::Planar},
+        {"PROJ4", "+proj=longlat", false, true, Callback::Planar},
+        {"", "", false, true, Callback::Planar},
+        {"", "", true, true, Callback::Planar},
+        // a map, but also an ellipsoid
+        {"WKT", utm, true, true, Callback::Planar},
+        {"WKT", utm, true, false, Callback::None},
+    };
+    for (const Row& row : rows) {
+        PlanarMap map;
+        map.isTerrain = row.isTerrain;
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(row.format, row.text);
+        if (row.hasEllipsoid) root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOnMap(*root, map.mesh(1, 0, 0)), row.expected)
+            << row.format << ' ' << row.text << (row.isTerrain ? " terrain" : " mesh");
+    }
+}
+
+TEST(PlanarDatabase, LocatorsInDegreesArePlanarToo) {
+    PlanarMap map;
+    map.origin = osg::Vec3d(10, 45, 0);
+    map.size = 2.0;
+    map.heightUnit = 111319.0;  // as VirtualPlanetBuilder scales them
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", "GEOGCS[\"WGS 84\"]");
+    const osg::ref_ptr<osg::Node> tile = map.mesh(0, 0, 0);
+    auto& locator = *dynamic_cast<osgTerrain::TerrainTile&>(*tile).getLocator();
+    EXPECT_EQ(installedOnMap(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
+    EXPECT_EQ(installedOnMap(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOCENTRIC);
+    EXPECT_NE(installedOnMap(*root, tile), Callback::Planar);
+}
+
+osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(vertices.begin(), vertices.end()));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices.size())));
+    return geometry;
+}
+
+TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
+    for (const double latitude : {45.0, 0.3, 88.0, -30.0}) {
+        std::vector<osg::Vec3> vertices;
+        for (const auto& [north, east] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}})
+            vertices.push_back(ecefDeg(latitude + 0.5 * north, 20.0 + 0.5 * east, 300.0));
+        const osg::ref_ptr<osg::Geometry> geometry = triangles(vertices);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+        EXPECT_EQ(installedOnMap(*root, geometry), Callback::None) << latitude;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOnMap(*root, geometry), Callback::Geocentric) << latitude;
+    }
+    // and a map at a northing that is nearly the earth's radius is no globe
+    PlanarMap map;
+    map.isTerrain = false;
+    map.origin.y() = 6340000.0;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    EXPECT_EQ(installedOnMap(*root, map.mesh(2, 0, 0)), Callback::None);
+}
+
+TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
+    const osg::Vec3 a(0, 0, 0), b(100, 0, 0), c(0, 100, 0), up(0, 0, 50);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+    ASSERT_EQ(installedOnMap(*root, triangles({a, b, c})), Callback::Planar);
+    ASSERT_EQ(installedOnMap(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, a + up})), Callback::None) << "a wall";
+    const osg::Vec3 high(0, 0, 2e5f);
+    EXPECT_EQ(installedOnMap(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
+    const float nan = std::nanf("");
+    EXPECT_EQ(installedOnMap(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
+    PlanarMap far;
+    far.origin.y() = 1.5e10;
+    for (const bool isTerrain : {false, true}) {
+        far.isTerrain = isTerrain;
+        EXPECT_EQ(installedOnMap(*root, far.mesh(0, 0, 0)), Callback::None) << "farther than latitudes reach";
+    }
+    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
+    moving->setDataVariance(osg::Object::DYNAMIC);
+    moving->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installedOnMap(*root, moving), Callback::None);
+    // outside of paged files a mesh is no tile
+    root->removeChildren(0, root->getNumChildren());
+    root->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installBins(*root), 0u);
+    EXPECT_TRUE(root->getChild(0)->getCullingActive());
+}
+
+TEST(PlanarDatabase, TextTellsAMap) {
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
+    EXPECT_NE(callback->getRadiiText(), "map");
+    callback->setRadiiText("map");
+    EXPECT_EQ(callback->getRadiiText(), "map");
+    callback->setRadiiText("6378137 6356752");
+    EXPECT_EQ(callback->getRadiiText(), "6378137 6356752");
+}
+
+TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", kUtm);
+    PlanarMap map;
+    map.isTerrain = false;
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(map.mesh(0, 0, 0), "parts.osgb");
+    const osg::ref_ptr<osg::ClusterCullingCallback> cluster = new osg::ClusterCullingCallback;
+    cluster->set(osg::Vec3(1, 2, 3), osg::Vec3(0, 0, 1), -0.5f, 1000.0f);
+    tile->setCullCallback(cluster);
+    root->addChild(tile);
+    for (const char* method : {"quadratic", "exact", "quadratic"}) {
+        EXPECT_EQ(installBins(*root, optionsOf(std::string("method=") + method)), 1u) << method;
+        EXPECT_EQ(tile->getCullCallback()->getNestedCallback(), cluster.get()) << "and one of ours, not two";
+        EXPECT_DOUBLE_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
+    }
+    EXPECT_EQ(cluster->getDeviation(), -0.5f);
+    // without declared heights the bins hold all terrain on earth, in feet
+    const core::Interval heights = installedOn(*tile)->getBin().bin().altitude();
+    EXPECT_GE(heights.upper, 8849.0 / 0.3048);
+    EXPECT_LE(heights.lower, -10935.0 / 0.3048);
+    EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);
+    EXPECT_EQ(tile->getCullCallback(), cluster.get());
+    EXPECT_TRUE(tile->getCullingActive());
+    EXPECT_TRUE(tile->getChild(0)->getCullingActive());
+    EXPECT_EQ(tile->getMinimumExpiryTime(1), 0.0);
+    EXPECT_EQ(root->getCullCallback(), nullptr);
 }
 
 }  // namespace

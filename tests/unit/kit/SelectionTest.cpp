@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What is drawn is selected before: callbacks of an application that change something in between.
+// What is drawn is selected before: callbacks of an application that change something in between. And OSG's own spheres
+// on tiles and on groups above them, which bins leave in use, and which occluders are compared with.
 
 #include "KitTest.h"
 
+#include <osg/ConvexPlanarOccluder>
+#include <osg/OccluderNode>
 #include <osg/observer_ptr>
 
 namespace osgAnalyticBin::test {
@@ -168,6 +171,228 @@ TEST(Selection, StampsTheLevelsThatItGoesThrough) {
     EXPECT_EQ(tile.getFrameNumber(0), globe.frame);
     EXPECT_EQ(tile.getTimeStamp(0), time);
     EXPECT_NE(globe.tiles[15]->getFrameNumber(0), globe.frame);
+}
+
+// Tiles below a tree of plain groups.
+osg::ref_ptr<osg::Node> makeTree(double south, double west, double height, double width, int levels) {
+    if (levels == 0)
+        return makePaged(makeMeshTile(extentsDeg(south, south + height, west, west + width), 0.0), "no.osgb");
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (const double y : {south, south + height / 2})
+        for (const double x : {west, west + width / 2})
+            group->addChild(makeTree(y, x, height / 2, width / 2, levels - 1));
+    return group;
+}
+
+TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
+    const auto globe = makeGlobe({makeTree(-90.0, -180.0, 180.0, 360.0, 4)});
+    ASSERT_EQ(installBins(*globe, optionsOf("horizon=off")), 256u);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    (void)cull(*globe, downTo(20.0, 30.0), *visitor);
+    const BinCounts counts = BinStatistics::of(*visitor).getCounts();
+    EXPECT_GT(counts.tested, 0u);
+    EXPECT_LT(counts.tested, 64u);
+}
+
+// Here the sphere that is set does not even hold the tile's own mesh.
+TEST(Spheres, OfPagedLodsThatTheApplicationHasSetHoldWhatIsLoadedBelow) {
+    for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
+        MeshGlobe globe;
+        osg::PagedLOD& tile = *globe.tiles[19];
+        const osg::BoundingSphere sphere = tile.getChild(0)->getBound();
+        tile.setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        tile.setCenter(sphere.center());
+        tile.setRadius(0.1f * sphere.radius());
+        tile.setRangeMode(mode);
+        tile.setRange(0, 0.0f, 1e10f);
+        installBins(*globe.root, optionsOf("horizon=off"));
+        const bool isByDistance = mode == osg::LOD::DISTANCE_FROM_EYE_POINT;
+        EXPECT_EQ(globe.draws(tile, downTo(4, -4)), isByDistance);
+        EXPECT_EQ(tile.getBound().radius() >= sphere.radius(), isByDistance);
+        EXPECT_EQ(tile.getBound().center(), sphere.center());
+        // what the bin of a tile holds needs no larger sphere
+        tile.setRadius(2.0f * sphere.radius());
+        tile.dirtyBound();
+        EXPECT_EQ(tile.getBound().radius(), 2.0f * sphere.radius());
+        tile.setRadius(0.1f * sphere.radius());
+        tile.dirtyBound();
+        (void)tile.getBound();
+        removeBins(*globe.root);
+        EXPECT_EQ(tile.getBound().radius(), 0.1f * sphere.radius());
+    }
+}
+
+// An application's own bound of a group. What OSG leaves out by it hides nothing.
+struct FixedBound : osg::Node::ComputeBoundingSphereCallback {
+    explicit FixedBound(const osg::BoundingSphere& sphere) : bound(sphere) {}
+    osg::BoundingSphere computeBound(const osg::Node&) const override { return bound; }
+    const osg::BoundingSphere bound;
+};
+
+TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
+    const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f),
+        small(ecefDeg(22.5, -22.5, 0.0), 1.0f);
+    const auto expectDrawn = [](const osg::BoundingSphere& bound, bool isDrawn, bool hasCallback) {
+        MeshGlobe globe;
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        // OSG itself enters it
+        if (hasCallback) group->setCullCallback(new osg::NodeCallback);
+        globe.root->replaceChild(globe.tiles[19], group);
+        group->addChild(globe.tiles[19]);
+        group->setComputeBoundingSphereCallback(new FixedBound(bound));
+        installBins(*globe.root);
+        CullView view = MeshGlobe::fromAbove();
+        view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+        EXPECT_EQ(globe.draws(*globe.tiles[19], view), isDrawn) << hasCallback;
+        EXPECT_EQ(globe.draws(*globe.tiles[15], view), !isDrawn) << hasCallback;
+    };
+    for (const bool hasCallback : {false, true}) {
+        expectDrawn(around, true, hasCallback);
+        expectDrawn(elsewhere, false, hasCallback);
+        expectDrawn(small, false, hasCallback);
+    }
+}
+
+// Houses in a file of their own, and a finer level of the ground beside them.
+TEST(Spheres, OfObjectsStayTheirOnlyTest) {
+    MeshGlobe globe;
+    const auto makeHouses = [](osg::Group* houses) {
+        for (const double place : {1.0, 2.0, 3.0, 4.0}) houses->addChild(makeTower(ecefDeg(place, place, 0.0)));
+        return osg::ref_ptr<osg::Group>(houses);
+    };
+    const auto levels = makeHouses(new osg::LOD), houses = makeHouses(new osg::Group);
+    for (unsigned int i = 0; i < 4; ++i) static_cast<osg::LOD&>(*levels).setRange(i, 0.0f, 1e9f);
+    const auto ground = makeMeshTile(extentsDeg(0.0, 5.0, 0.0, 5.0), 0.0);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    for (const auto& child : {levels, houses, osg::ref_ptr<osg::Group>(ground)}) file->addChild(child);
+    const osg::ref_ptr<osg::PagedLOD> tile =
+        makePaged(makeMeshTile(extentsDeg(0.0, 5.0, 0.0, 5.0), 0.0), "houses", 1e9f);
+    putBelow(*tile, file);
+    globe.root->addChild(tile);
+    installBins(*globe.root);
+    EXPECT_NE(installedOn(*tile), nullptr);
+    EXPECT_NE(installedOn(*ground), nullptr);
+    EXPECT_EQ(levels->getCullCallback(), nullptr);
+    for (unsigned int i = 0; i < 4; ++i) EXPECT_EQ(houses->getChild(i)->getCullCallback(), nullptr);
+    for (const auto& group : {levels, houses}) {
+        EXPECT_TRUE(globe.draws(*group->getChild(1), downTo(2.0, 2.0, 20000.0)));
+        EXPECT_FALSE(globe.draws(*group->getChild(2), downTo(2.0, 2.0, 20000.0)));
+    }
+}
+
+// A kind of Geode that may draw anything.
+struct EffectGeode : osg::Geode {};
+
+TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
+    const auto drawnIn = [](bool isInstalled, const CullView& view) {
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        for (int i = 0; i < 20; ++i) {
+            const core::GeodeticBin extents = extentsDeg(i, i + 1, 0, 1);
+            const auto mesh = makeMeshTile(extents, 0.0);
+            const osg::ref_ptr<osg::Geode> geode = new EffectGeode;
+            geode->addDrawable(drawableOf(*mesh));
+            mesh->removeChildren(0, mesh->getNumChildren());
+            mesh->addChild(geode);
+            const osg::ref_ptr<osg::PagedLOD> objects = new osg::PagedLOD;
+            objects->setFileName(0, "objects");
+            mesh->addChild(objects);
+            const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
+            tile->addChild(mesh, 0.0f, 1e9f);
+            setStoredBin(*tile, AnalyticBin(extents.withAltitude({-100.0, 100.0})));
+            scene->addChild(tile);
+        }
+        if (isInstalled) (void)installBins(*scene);
+        return cull(*scene, view).drawn.size();
+    };
+    const CapturedNotes notes;
+    for (const double latitude : {3.0, 11.0}) {
+        const CullView view = downTo(latitude, 0.5, 30000.0);
+        EXPECT_GT(drawnIn(false, view), 0u);
+        EXPECT_LE(drawnIn(true, view), drawnIn(false, view));
+        EXPECT_GT(drawnIn(true, view), 0u);
+    }
+    EXPECT_GT(notes.count("the root file holds content that cannot be compared"), 0u);
+}
+
+// A tile in ECEF, about which OSG has a larger sphere than the one about its bin.
+osg::ref_ptr<osg::PagedLOD> tileInEcef() {
+    const osg::ref_ptr<osg::MatrixTransform> frame = makeMeshTile(extentsDeg(35, 36, 45, 46), 0.0);
+    const osg::ref_ptr<osg::Node> mesh = frame->getChild(0);
+    auto& vertices = verticesOf(*mesh);
+    for (osg::Vec3& vertex : vertices) vertex = osg::Vec3d(vertex) * frame->getMatrix();
+    osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "no.osgb", 1.0f);
+    setStoredBin(*tile, tileSurface(*mesh, osg::EllipsoidModel(), osg::Matrixd()).bin);
+    return tile;
+}
+
+TEST(Spheres, LoseNoTileThatIsSmallerThanTheyAre) {
+    for (const bool isFamily : {true, false}) {
+        const auto stock = makeGlobe({tileInEcef()}), withBins = makeGlobe({tileInEcef()});
+        ASSERT_EQ(installBins(*withBins), 1u);
+        if (!isFamily) withBins->addCullCallback(new osg::NodeCallback);
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        std::size_t drawn = 0;
+        for (double distance = 5e6; distance < 2e8; distance *= 1.01) {
+            CullView view = CullView::lookAt(ecefDeg(35.5, 45.5, distance), ecefDeg(35.5, 45.5, 0), {0, 0, 1}, 60.0);
+            view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+            const std::size_t all = cull(*stock, view, *visitor).drawn.size();
+            EXPECT_GE(cull(*withBins, view, *visitor).drawn.size(), all) << distance << isFamily;
+            drawn += all;
+        }
+        EXPECT_GT(drawn, 20u);
+        EXPECT_LT(drawn, 350u);
+    }
+}
+
+constexpr double kAltitude = 5e6;
+
+// A wall of this size, seen from a place above the globe: half of the picture's height is 0.7.
+osg::ref_ptr<osg::Node> makeWall(const CullView& view, double halfSize, double aside) {
+    constexpr double kDistance = 0.2 * kAltitude;
+    const osg::Matrixd toWorld = osg::Matrixd::inverse(view.modelView);
+    const osg::ref_ptr<osg::ConvexPlanarOccluder> occluder = new osg::ConvexPlanarOccluder;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        const osg::Vec3d corner(aside + x * halfSize, y * halfSize, -1.0);
+        occluder->getOccluder().add(osg::Vec3(corner * kDistance * toWorld));
+    }
+    osg::ref_ptr<osg::OccluderNode> wall = new osg::OccluderNode;
+    wall->setOccluder(occluder);
+    wall->setCullingActive(false);
+    return wall;
+}
+
+// The numbers of the globe's tiles that are drawn behind a wall.
+std::set<std::size_t> drawnBehind(osg::Node& wall, MeshGlobe& globe, const CullView& view) {
+    const auto scene = makeGroup({&wall, globe.root});
+    const auto drawn = cull(*scene, view, *globe.visitor, ++globe.frame).drawn;
+    std::set<std::size_t> numbers;
+    for (std::size_t i = 0; i < globe.tiles.size(); ++i)
+        if (drawn.count(drawableOf(*globe.tiles[i]))) numbers.insert(i);
+    return numbers;
+}
+
+TEST(Occluders, LeaveTilesToOsgsSpheres) {
+    MeshGlobe plain, installed;
+    installBins(*installed.root);
+    Random random(90);
+    std::size_t hidden = 0, culled = 0;
+    for (int i = 0; i < 60; ++i) {
+        const osg::Vec3d eye = ecefDeg(random.uniform(-80.0, 80.0), random.uniform(-180.0, 180.0), kAltitude);
+        const osg::Vec3d target = ecefDeg(random.uniform(-80.0, 80.0), random.uniform(-180.0, 180.0), -0.5 * kAltitude);
+        CullView view = CullView::lookAt(eye, target, {0, 0, 1}, 70.0);
+        // OSG drops occluders whose shadow is a small part of the frustum
+        view.projection = osg::Matrixd::perspective(70.0, 1.0, 0.05 * kAltitude, 2e7);
+        const osg::ref_ptr<osg::Node> wall = makeWall(view, random.uniform(0.2, 0.6), random.uniform(-0.3, 0.3));
+        view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+        const std::set<std::size_t> drawn = drawnBehind(*wall, installed, view);
+        EXPECT_EQ(drawn, drawnBehind(*wall, plain, view)) << i;
+        view.cullingMode &= ~osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+        const std::size_t inView = drawnBehind(*wall, plain, view).size();
+        hidden += inView - drawn.size();
+        culled += inView - drawnBehind(*wall, installed, view).size();
+    }
+    EXPECT_GT(hidden, 30u);
+    EXPECT_GT(culled, 60u) << "bins, in views without occluders";
 }
 
 }  // namespace
