@@ -290,8 +290,8 @@ FAULTS = [
           "kTerrainOnEarth{-11500.0, 9000.0}", "kTerrainOnEarth{-11500.0, 8000.0}", NODE, "HeightsOnEarth.*"),
 
     # what applications do with a database
-    Fault("copies of callbacks cull", "src/kit/tile/InstalledTile.h", "return node == _culled;", "return true;", NODE,
-          "Clones.*"),
+    Fault("copies of callbacks cull", "src/kit/tile/InstalledTile.h", "return node == _culled;", "return true;",
+          SCENES, NAMED + "/clones-of-nodes.scene"),
     Fault("osgTerrain tiles keep their heights", "src/kit/install/ContentWatch.cpp",
           "mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));", "", SCENES, NAMED),
     Fault("the horizon keeps the altitudes of meshes that change", "src/kit/cull/SelectionEvidence.cpp",
@@ -371,7 +371,8 @@ FAULTS = [
           "if (mayBeTooSmall(bound, node))", "if (false && mayBeTooSmall(bound, node))", NODE, "Spheres.*"),
 
     Fault("eyes are about tiles near their middle alone", "src/kit/cull/SelectionWalk.cpp",
-          "const double radius = tile.column.radius();", "const double radius = 0.3 * tile.column.radius();", NODE, "UndergroundEyes.*"),
+          "const double radius = tile.column.radius();", "const double radius = 0.3 * tile.column.radius();",
+          SCENES, NAMED + "/underground-near-corners.scene"),
     Fault("coverage: files without tiles are not there", "src/kit/install/BinInstaller.cpp",
           "if (i < paged->getNumChildren()) below.setVisited();", "", SCENES, f"{NAMED}/file-without-tiles.scene"),
     Fault("levels chosen by pixels, or below transforms, are always due", "src/kit/cull/SelectionEvidence.cpp",

@@ -250,18 +250,6 @@ TEST_P(NeverCulled, IsACamera) {
 
 INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
 
-TEST(Clones, ThatShareCallbacksStayVisible) {
-    InstalledGlobe globe;
-    // OSG tells nothing of what is drawn: bins alone do
-    for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
-    const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
-    const auto drawnOf = [&](osg::Node& scene) {
-        return cull(scene, downTo(22.5, -22.5), *globe.visitor, ++globe.frame).drawn.size();
-    };
-    EXPECT_LT(drawnOf(*globe.root), 8u);
-    EXPECT_EQ(drawnOf(*clone), 32u);
-}
-
 // An application's callback in front of the bin's: the clones of its node share both.
 TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
     InstalledGlobe globe;

@@ -132,22 +132,6 @@ struct OwnPagedLod : osg::PagedLOD {
     }
 };
 
-// Anywhere below the mesh of a tile, whose sphere is far larger than the hills in it; lower than its bin, too.
-TEST(UndergroundEyes, AreFoundAnywhereBelowATile) {
-    InstalledGlobe globe(40000.0);
-    for (const double latitude : {0.5, 21.3, 44.5}) {
-        for (const double longitude : {-44.5, -21.7, -0.5}) {
-            for (const double altitude : {-100000.0, 10000.0, 28000.0}) {
-                const osg::Vec3d eye = ecefDeg(latitude, longitude, altitude);
-                EXPECT_TRUE(globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0)))
-                    << latitude << " " << longitude << " " << altitude;
-            }
-            const osg::Vec3d above = ecefDeg(latitude, longitude, 90000.0);
-            EXPECT_FALSE(globe.draws(*globe.tiles[15], CullView::lookAt(above, {0, 0, 0}, {0, 0, 1}, 100.0)));
-        }
-    }
-}
-
 TEST(HoledGlobe, IsSeenThroughWhereAClassOfTheApplicationsPagesTiles) {
     for (const bool isBehind : {false, true}) {
         MeshGlobe globe;

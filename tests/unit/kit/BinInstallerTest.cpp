@@ -114,26 +114,20 @@ TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     EXPECT_TRUE(installedOn(*db.tile)->getLocalToEcef().isIdentity());
 }
 
-TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
-    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
-    mover->setDataVariance(osg::Object::DYNAMIC);
-    const osg::ref_ptr<osg::Group> tile = new osg::Group;
-    setStoredBin(*tile, kBin);
-    mover->addChild(tile);
-    EXPECT_EQ(installBins(*mover), 1u);
-    EXPECT_TRUE(installedOn(*tile)->getLocalToEcef().isIdentity());
-}
-
-TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
+// A tile's own frame, or that in which a transform that is a tile stands.
+TEST(BinInstaller, WithoutACoordinateSystemTilesStandInEcef) {
     const osg::Vec3d origin = ecefDeg(0, 0, 0);
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
+    mover->setDataVariance(osg::Object::DYNAMIC);
     const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::translate(origin));
     const osg::ref_ptr<osg::MatrixTransform> leaf = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 7));
-    setStoredBin(*tile, kBin);
-    setStoredBin(*leaf, kBin);
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (osg::Node* const node : {group->asNode(), tile->asNode(), leaf->asNode()}) setStoredBin(*node, kBin);
+    mover->addChild(group);
     mover->addChild(tile);
     tile->addChild(leaf);
-    EXPECT_EQ(installBins(*mover), 2u);
+    EXPECT_EQ(installBins(*mover), 3u);
+    EXPECT_TRUE(installedOn(*group)->getLocalToEcef().isIdentity());
     EXPECT_EQ(installedOn(*tile)->getLocalToEcef(), osg::Matrixd::translate(origin));
     EXPECT_EQ(installedOn(*leaf)->getLocalToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
 }
