@@ -822,7 +822,7 @@ FAULTS = [
     Fault("evidence: a file's level may leave a gap", "src/kit/cull/SelectionEvidence.cpp",
           "if (!_isAdded && hasGapBelow(tile)) doubt();", "(void)tile;", NODE, "Newcomers.*"),
     Fault("evidence: the level of a tile in view may leave a gap", "src/kit/cull/SelectionWalk.cpp",
-          "doubtLevelsOf(tile);", "", NODE, "Evidence.*"),
+          "doubtLevelsOf(tile);", "", NODE, "Newcomers.*"),
     Fault("evidence: a region reaches as far as its tiles, with gaps", "src/kit/install/Coverage.cpp",
           "return !region.empty() && covers(region) ? region",
           "return !region.empty() ? region",
