@@ -3,7 +3,7 @@
 //
 // Boxes about bins, the two published rules and the horizon point of other programs. Oracles: the bin's exact range by
 // long double; the rules written down a second time; the point itself, found from samples of the bin, whose own line of
-// sight is tested in long double. Millions of planes, frusta and eyes: HullSoundness.cpp, Soundness.cpp.
+// sight is tested in long double. Millions of planes, frusta and eyes: Soundness.cpp.
 
 #include "BoxBins.h"
 #include "ComparisonBins.h"
