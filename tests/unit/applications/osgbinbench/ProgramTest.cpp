@@ -285,9 +285,8 @@ TEST_F(Vpb, ClusterCallbacksCullWhatIsSeenOfExaggeratedTerrainAndBinsDoNot) {
 }
 
 TEST_F(Vpb, PicturesWithBinsAreThoseWithoutCulling) {
-    const Json methods =
-        run("polygonal", VPB_EXAGGERATED_PATH_FILE,
-            {"--methods", "bins", "--size", "480x270", "--threading", "DrawThreadPerContext"})["methods"];
+    const Json methods = run("polygonal", VPB_EXAGGERATED_PATH_FILE,
+                             {"--methods", "bins", "--size", "480x270", "--threading", "DrawThreadPerContext"});
     expectNothingLost(methods["bins"]);
     EXPECT_LT(methods["bins"]["drawn_tiles"].get<double>(), 0.3 * methods["none"]["drawn_tiles"].get<double>());
 }
