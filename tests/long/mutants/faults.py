@@ -922,6 +922,10 @@ FAULTS = [
     Fault("depth buffer: 16 bits will do", "src/kit/cull/Viewpoint.cpp", "kLeastDepthBits = 24", "kLeastDepthBits = 16", NODE,
           "DepthBuffers.*"),
 
+    # files that the application reads
+    Fault("index: made although the application's callback reads the files", "src/kit/install/InstallBins.cpp",
+          "if (use == IndexUse::Auto && isReadByApplication(node, readOptions)) use = IndexUse::On;", "", NODE, "AutoIndex.*"),
+
     # colours of heights
     Fault("relief: light from the south-east", "applications/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
           PACKED, "TerrainGrid.*"),

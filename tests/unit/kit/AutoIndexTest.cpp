@@ -180,6 +180,61 @@ TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     EXPECT_FALSE(isIndexAwaited(*_scene));
 }
 
+// Puts a mast on a tile while it is read.
+struct WithMast : osgDB::ReadFileCallback {
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
+        osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNodeImplementation(name, options);
+        const bool isTaller = result.validNode() && name.find("single.osgb") != std::string::npos;
+        return isTaller ? makeGroup({result.getNode(), makeTower(ecefDeg(40, 20, 5000), 1000.0f)}).get() : result;
+    }
+};
+
+// The index would hold the files alone.
+TEST_F(AutoIndex, IsNotMadeWhereTheApplicationReadsFilesItsOwnWay) {
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    const osg::ref_ptr<osgDB::ReadFileCallback> own = new WithMast;
+    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options;
+    users->setReadFileCallback(own);
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    const auto expectMast = [&](const char* where) {
+        EXPECT_FALSE(isIndexAwaited(*_scene)) << where;
+        MeshGlobe globe;
+        const osg::ref_ptr<Requests> requests = new Requests;
+        globe.visitor->setDatabaseRequestHandler(requests);
+        (void)cull(*_scene, CullView::lookAt(ecefDeg(39.9, 20, 5000), ecefDeg(40, 20, 5000), {0, 0, 1}, 4.0),
+                   *globe.visitor);
+        EXPECT_EQ(requests->files.size(), 1u) << where << ": the mast may be the only thing in view";
+    };
+    for (int i = 0; i < 2; ++i) {
+        registry.setReadFileCallback(own);
+        open();
+        registry.setReadFileCallback(nullptr);
+        expectMast("of the registry");
+    }
+    registry.setOptions(users);
+    open();
+    registry.setOptions(nullptr);
+    expectMast("in the registry's options");
+    _scene = osgDB::readRefNodeFile(_file);
+    EXPECT_EQ(installBins(*_scene, {}, _file, users), 1u);
+    expectMast("in the options of the read");
+    _scene = osgDB::readRefNodeFile(_file);
+    dynamic_cast<osg::PagedLOD&>(*_scene->asGroup()->getChild(0)).setDatabaseOptions(users);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(installBins(*_scene, {}, _file), 1u);
+        expectMast("in the options of a tile");
+    }
+}
+
+TEST_F(AutoIndex, IsMadeWhereACallbackReadsFilesAsOsgDoes) {
+    osgDB::Registry::instance()->setReadFileCallback(new osgDB::ReadFileCallback);
+    open();
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    EXPECT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_TRUE(isRootWhole());
+}
+
 // Also in a viewer whose time stands still, and in one that draws a single frame.
 TEST(DeclaredBins, RequestAllFilesInTheFirstView) {
     struct Globe : MeshGlobe {

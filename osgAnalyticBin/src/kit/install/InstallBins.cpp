@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../Classes.h"
+#include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../tile/EachNode.h"
@@ -14,6 +16,8 @@
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/PagedLOD>
+#include <osgDB/Callbacks>
+#include <osgDB/Registry>
 #include <osgTerrain/TerrainTile>
 
 #include <atomic>
@@ -74,6 +78,26 @@ void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Datab
     });
 }
 
+bool isApplications(osgDB::ReadFileCallback* callback) {
+    auto* const ours = dynamic_cast<BinReadFileCallback*>(callback);
+    osgDB::ReadFileCallback* const own = ours ? ours->previous() : callback;
+    return own && !isOneOf<osgDB::ReadFileCallback>(*own);
+}
+
+// Whether a callback of the application's reads the files: it may make more of them than an index of them holds.
+bool isReadByApplication(osg::Node& node, const osgDB::Options* options) {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    bool is = isApplications(registry.getReadFileCallback());
+    const auto ask = [&is](const osgDB::Options* of) { is = is || (of && isApplications(of->getReadFileCallback())); };
+    ask(registry.getOptions());
+    ask(options);
+    forEachNode(node, [&](osg::Node& at) {
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&at);
+        if (paged) ask(dynamic_cast<const osgDB::Options*>(paged->getDatabaseOptions()));
+    });
+    return is;
+}
+
 // Starts to make an index, if tiles want one.
 void makeIndex(osg::Node& node, TileBoundsSource* index) {
     bool isWanted = false;
@@ -98,7 +122,8 @@ std::size_t installBins(osg::Node& node, const CullOptions& options) {
 std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
                         const osgDB::Options* readOptions) {
     // an index numbers the tiles that are found without a name
-    const IndexUse use = options.ground.empty() ? options.index : IndexUse::Off;
+    IndexUse use = options.ground.empty() ? options.index : IndexUse::Off;
+    if (use == IndexUse::Auto && isReadByApplication(node, readOptions)) use = IndexUse::On;
     const ChosenIndex chosen = chooseIndex(databaseFileName, readOptions, use);
     const std::size_t installed = install(node, options, chosen.index.get());
     makeIndex(node, chosen.making.get());
