@@ -922,6 +922,13 @@ FAULTS = [
     Fault("depth buffer: 16 bits will do", "src/kit/cull/Viewpoint.cpp", "kLeastDepthBits = 24", "kLeastDepthBits = 16", NODE,
           "DepthBuffers.*"),
 
+    # photogrammetry
+    Fault("photogrammetry: nothing above a false sphere is culled", "src/kit/install/SetInstaller.cpp",
+          "isBelow = _withOurs > 0 && !_isKept;", "isBelow = false && !_isKept;", PLUGIN, "FalseSpheres.*"),
+    Fault("photogrammetry: what is never culled is not told apart", "src/kit/install/SetInstaller.cpp",
+          "return _isKept || node.getNumChildrenWithCullingDisabled() != _withOurs;",
+          "return _isKept && node.getNumChildrenWithCullingDisabled() != _withOurs;", PLUGIN, "FalseSpheres.*"),
+
     # files that the application reads
     Fault("index: made although the application's callback reads the files", "src/kit/install/InstallBins.cpp",
           "if (use == IndexUse::Auto && isReadByApplication(node, readOptions)) use = IndexUse::On;", "", NODE, "AutoIndex.*"),

@@ -329,6 +329,34 @@ TEST_F(FalseSpheres, AreCulledBehindTheEye) {
     EXPECT_EQ(test::loadedTiles(*set.scene), files);
 }
 
+// Nor is what stands above them: the pager would keep it, and all views would look at it.
+TEST_F(FalseSpheres, LeaveTheLevelsAboveThemToBeCulled) {
+    Flown set(read());
+    const osg::Vec3d middle = setIn(*set.scene)->getMatrix().getTrans(), up = middle / middle.length();
+    const CullView down = CullView::lookAt(middle + up * 300.0, middle, osg::Vec3d(0, 0, 1), 90.0);
+    const CullView away = CullView::lookAt(middle + up * 300.0, middle + up * 900.0, osg::Vec3d(0, 0, 1), 60.0);
+    const auto lastVisit = [&set] {
+        unsigned int last = 0;
+        test::visitNodes(*set.scene, [&last](osg::Node& node) {
+            const auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+            if (paged) last = std::max(last, paged->getFrameNumberOfLastTraversal());
+        });
+        return last;
+    };
+    EXPECT_TRUE(set.flight.load(down));
+    const unsigned int before = lastVisit();
+    set.flight.frames(away, 3);
+    EXPECT_EQ(lastVisit(), before);
+    set.flight.frame(down);
+    EXPECT_GT(lastVisit(), before);
+    // what the application never has culled, in a tile with a false sphere
+    osg::Node& tile = *setIn(*set.scene)->getChild(1);
+    tile.asGroup()->getChild(0)->asGroup()->getChild(0)->setCullingActive(false);
+    const unsigned int then = lastVisit();
+    set.flight.frames(away, 3);
+    EXPECT_GT(lastVisit(), then);
+}
+
 TEST_F(FalseSpheres, AreAllThatIsCulledOtherwiseThanByOsg) {
     test::PhotogrammetrySample sample;
     sample.hasFalseSpheres = false;

@@ -42,6 +42,11 @@ public:
         return dynamic_cast<const LodWatch*>(node.getComputeBoundingSphereCallback());
     }
     [[nodiscard]] const osg::BoundingBox& loaded() const { return _loaded; }
+    // Whether the application asks OSG not to cull something below: not where only LODs of ours ask for it, which are
+    // culled by their callbacks. `node`: the watched one.
+    [[nodiscard]] bool isKept(const osg::Node& node) const {
+        return _isKept || node.getNumChildrenWithCullingDisabled() != _withOurs;
+    }
 
     osg::BoundingSphere computeBound(const osg::Node& node) const override;
 
@@ -50,6 +55,8 @@ protected:
 
 private:
     mutable osg::BoundingBox _loaded;
+    mutable bool _isKept = false;
+    mutable unsigned int _withOurs = 0;  // children without OSG's culling when that was found
 };
 
 class LodCullCallback final : public osg::NodeCallback {
@@ -58,9 +65,7 @@ public:
         const auto isCulled = [node](osg::CullStack& cullStack) {
             const osg::BoundingSphere& sphere = node->getBound();
             const LodWatch* const watch = LodWatch::of(*node);
-            // something below asks OSG not to cull
-            const bool isTested = watch && node->getNumChildrenWithCullingDisabled() == 0;
-            return isTested && cullStack.isCulled(sphere) && cullStack.isCulled(watch->loaded());
+            return watch && !watch->isKept(*node) && cullStack.isCulled(sphere) && cullStack.isCulled(watch->loaded());
         };
         cullOrTraverse(*nv, isCulled, [&] { traverse(node, nv); });
     }
@@ -77,9 +82,17 @@ public:
     LoadedBox() { setNodeMaskOverride(~0u); }
     void apply(osg::Node& node) override {
         const LodWatch* const watch = LodWatch::of(node);
+        const bool isOurs = watch && findCallback<LodCullCallback>(node.getCullCallback());
+        isKept = isKept || (!node.getCullingActive() && !isOurs) || (watch && watch->isKept(node));
         if (!watch) return traverse(node);
         applyBoundingBox(watch->loaded());
     }
+    void apply(osg::Drawable& drawable) override {
+        isKept = isKept || !drawable.getCullingActive();
+        osg::ComputeBoundsVisitor::apply(drawable);
+    }
+
+    bool isKept = false;
 };
 
 osg::BoundingSphere LodWatch::computeBound(const osg::Node& node) const {
@@ -90,7 +103,11 @@ osg::BoundingSphere LodWatch::computeBound(const osg::Node& node) const {
     LoadedBox box;
     lod.traverse(box);
     _loaded = box.getBoundingBox();
-    if (lod.getCullingActive() && !holdsBox(bound, _loaded)) {
+    _isKept = box.isKept;
+    _withOurs = lod.getNumChildrenWithCullingDisabled();
+    // OSG culls no node above one that it does not cull
+    const bool isBelow = _withOurs > 0 && !_isKept;
+    if (lod.getCullingActive() && (isBelow || !holdsBox(bound, _loaded))) {
         lod.setCullingActive(false);
         const osg::ref_ptr<LodCullCallback> callback = new LodCullCallback;
         putInFront(lod, *callback);
