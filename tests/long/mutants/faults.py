@@ -929,6 +929,10 @@ FAULTS = [
           "return _isKept || node.getNumChildrenWithCullingDisabled() != _withOurs;",
           "return _isKept && node.getNumChildrenWithCullingDisabled() != _withOurs;", PLUGIN, "FalseSpheres.*"),
 
+    # several cameras of one visitor
+    Fault("occlusion: cameras of a visitor share what was found", "src/kit/cull/CullTraversal.cpp",
+          "kMostCameras = 8", "kMostCameras = 1", NODE, "TerrainOcclusion.*"),
+
     # files that the application reads
     Fault("index: made although the application's callback reads the files", "src/kit/install/InstallBins.cpp",
           "if (use == IndexUse::Auto && isReadByApplication(node, readOptions)) use = IndexUse::On;", "", NODE, "AutoIndex.*"),

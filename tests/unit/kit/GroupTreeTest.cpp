@@ -239,13 +239,13 @@ TEST(LastViews, OfADatabaseAreForgottenWithIt) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     CullTraversal& traversal = CullTraversal::of(*visitor);
     osg::ref_ptr<Known> database = new Known;
-    traversal.lastView(*database).depth = 1000.0;
-    EXPECT_EQ(traversal.lastView(*database).depth, 1000.0);
+    traversal.lastView(*database, *visitor).depth = 1000.0;
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 1000.0);
     const Known* const before = database;
     database = nullptr;
     std::vector<osg::ref_ptr<Known>> others;
     for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new Known);
-    EXPECT_EQ(traversal.lastView(*database).depth, 0.0);
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 0.0);
 }
 
 }  // namespace

@@ -54,8 +54,7 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
 }
 
 // The views with which what is found anew begins to serve. A search takes longer than all other culling.
-std::vector<int> beginningsIn(const std::function<CullView(int)>& view) {
-    InstalledRidge globe;
+std::vector<int> beginningsIn(InstalledRidge& globe, const std::function<CullView(int)>& view) {
     const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
     std::shared_ptr<const CoveredPicture> last;
     std::vector<int> beginnings;
@@ -65,6 +64,11 @@ std::vector<int> beginningsIn(const std::function<CullView(int)>& view) {
         last = statistics.covered();
     }
     return beginnings;
+}
+
+std::vector<int> beginningsIn(const std::function<CullView(int)>& view) {
+    InstalledRidge globe;
+    return beginningsIn(globe, view);
 }
 
 CullView eastward(double east, double altitude) {
@@ -79,6 +83,34 @@ TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlightAndOfATurn) {
         return CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.15 - 1e-3 * i, 1.0, 1000.0), {1, 0, 0}, 30.0);
     };
     EXPECT_LE(beginningsIn(turned).size(), 40u);
+}
+
+// One visitor culls for a camera in the scene, too, such as a mirror.
+TEST(TerrainOcclusion, ServesManyViewsOfEachOfSeveralCameras) {
+    InstalledRidge globe;
+    std::vector<osg::ref_ptr<osg::Node>> content;
+    std::vector<osg::ref_ptr<osg::Camera>> mirrors;
+    for (int i = 0; i < 3; ++i) {
+        mirrors.push_back(new osg::Camera);
+        mirrors.back()->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        mirrors.back()->setRenderOrder(osg::Camera::PRE_RENDER);
+        mirrors.back()->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        mirrors.back()->setViewport(0, 0, 512, 512);
+        mirrors.back()->addChild(globe.root);
+        content.emplace_back(mirrors.back());
+    }
+    content.emplace_back(globe.root);
+    globe.scene = makeGroup(content);
+    const auto view = [&](int i) {
+        for (int mirror = 0; mirror < 3; ++mirror) {
+            const CullView aside = eastward(0.1 + 1e-5 * i + 1e-3 * mirror, 1000.0);
+            mirrors[static_cast<std::size_t>(mirror)]->setViewMatrix(aside.modelView);
+            mirrors[static_cast<std::size_t>(mirror)]->setProjectionMatrix(aside.projection);
+        }
+        return eastward(0.1 + 1e-5 * i, 1000.0);
+    };
+    EXPECT_LE(beginningsIn(globe, view).size(), 10u);
+    EXPECT_GT(globe.counts().occluded, 0u);
 }
 
 // What was found ahead of need grows old before it is needed: meshes may have changed without a word.

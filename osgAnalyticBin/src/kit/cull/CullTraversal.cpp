@@ -6,12 +6,21 @@
 #include "../GlmBridge.h"
 #include "../tile/InstalledDatabase.h"
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
 
 namespace {
 
 // The visitor that traverses a database in this thread. Looking it up in the user data of visitors is slower.
 thread_local std::pair<const osg::NodeVisitor*, CullTraversal*> scopeOfThread;
+
+// Null: only the visitor's own.
+const osg::Camera* innermostCamera(const osg::NodePath& path) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
+        if (const osg::Camera* const camera = (*node)->asCamera()) return camera;
+    return nullptr;
+}
 
 }  // namespace
 
@@ -50,16 +59,27 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
     return _planes;
 }
 
-CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database) {
+CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database, const osg::NodeVisitor& visitor) {
     // those that are gone are not told apart from those out of view
     constexpr std::size_t kMostDatabases = 4096;
     if (_lastViews.size() >= kMostDatabases && _lastViews.count(&database) == 0) _lastViews.clear();
-    LastView& last = _lastViews[&database];
+    LastViews& last = _lastViews[&database];
     if (last.of.get() != &database) {
-        last = LastView();
+        last.views.clear();
         last.of = &database;
     }
-    return last;
+    const osg::Camera* const camera = innermostCamera(visitor.getNodePath());
+    std::vector<LastView>& views = last.views;
+    auto own = std::find_if(views.begin(), views.end(), [camera](const LastView& of) { return of.camera == camera; });
+    if (own == views.end()) {
+        // cameras that come and go continue where others have ended
+        constexpr std::size_t kMostCameras = 8;
+        if (views.size() < kMostCameras) views.emplace_back();
+        own = views.end() - 1;
+        own->camera = camera;
+    }
+    if (own != views.begin()) std::rotate(views.begin(), own, own + 1);
+    return views.front();
 }
 
 }  // namespace osgAnalyticBin

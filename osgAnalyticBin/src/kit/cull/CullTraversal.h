@@ -17,6 +17,7 @@
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
+#include <osg/Camera>
 #include <osg/CullStack>
 #include <osg/CullingSet>
 #include <osg/Group>
@@ -30,6 +31,7 @@
 #include <deque>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -108,20 +110,21 @@ public:
 
     /// @{
     /// What searches of this visitor keep from view to view.
-    /// Results about a database.
+    /// Results about a database, for one camera.
     struct LastView {
-        /// Another one may get its address.
-        osg::observer_ptr<const InstalledDatabase> of;
-        double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
-        unsigned int waits = 0;            ///< views in a row in which finer ground below the eye was awaited
-        unsigned int holes = 0;            ///< views since a search last did not come to nothing
-        unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
-        unsigned int resting = 0;          ///< how many of them are left
-        unsigned int forOneView = 0;       ///< views in a row in which what was found served that view alone
-        osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
-        DatabaseRest databaseRest;         ///< while bins gain nothing
+        const osg::Camera* camera = nullptr;  ///< never dereferenced
+        double depth = 0.0;                   ///< metres, of the lowest surface shown; the next search starts there
+        unsigned int waits = 0;               ///< views in a row in which finer ground below the eye was awaited
+        unsigned int holes = 0;               ///< views since a search last did not come to nothing
+        unsigned int rest = 0;                ///< views without occlusion that follow a view in which it hid too little
+        unsigned int resting = 0;             ///< how many of them are left
+        unsigned int forOneView = 0;          ///< views in a row in which what was found served that view alone
+        osg::ref_ptr<TerrainHider> hider;     ///< null: none was needed yet
+        DatabaseRest databaseRest;            ///< while bins gain nothing
     };
-    [[nodiscard]] OSGANALYTICBIN_EXPORT LastView& lastView(const InstalledDatabase& database);
+    /// Of the innermost camera above the visitor's node. Of more than a few cameras, several share theirs.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT LastView& lastView(const InstalledDatabase& database,
+                                                           const osg::NodeVisitor& visitor);
     GroundBelow ground;  ///< last found below the eye
     HidingView hiding;   ///< for nodes that are no tiles
     /// @}
@@ -137,7 +140,11 @@ private:
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TileSelection> _selections;  // of databases within each other
     std::size_t _openSelections = 0;
-    std::unordered_map<const InstalledDatabase*, LastView> _lastViews;
+    struct LastViews {
+        osg::observer_ptr<const InstalledDatabase> of;  // another one may get its address
+        std::vector<LastView> views;                    // the last used first
+    };
+    std::unordered_map<const InstalledDatabase*, LastViews> _lastViews;
     core::PlaneSet _planes;
 };
 

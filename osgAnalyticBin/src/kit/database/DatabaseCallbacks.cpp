@@ -130,7 +130,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions& options = _database->optionsOfCull();
     const DatabaseRest::Turn turn = mayRest(nv, traversal, shape)
-                                        ? traversal.lastView(*_database).databaseRest.next(_database->arrivals())
+                                        ? traversal.lastView(*_database, nv).databaseRest.next(_database->arrivals())
                                         : DatabaseRest::Turn::Bins;
     if (turn == DatabaseRest::Turn::Osg) return leaveToOsg(node, nv);
     beginWithAllPlanes(cullStack);
@@ -166,7 +166,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
         traverse(&node, &nv);
     }
     view.selection->clear();
-    if (view.gain) traversal.lastView(*_database).databaseRest.note(gain);
+    if (view.gain) traversal.lastView(*_database, nv).databaseRest.note(gain);
 }
 
 void bringUpToDate(osg::Node& node, Database& database) {

@@ -248,7 +248,7 @@ HiddenInView findHidden(DatabaseView& view, Database& database, const CullOption
     const bool isMap = view.ellipsoid.isPlane();
     const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    CullTraversal::LastView& last = view.traversal.lastView(database);
+    CullTraversal::LastView& last = view.traversal.lastView(database, visitor);
     if (isHoleTakenForGranted(options.occlusion, last)) return {};
     view.expectsHole = last.holes > 0;
     // what is hidden among other nodes may be worth a search, too
