@@ -254,6 +254,17 @@ TEST_F(MissingTiles, LetAViewerRestThatDrawsOnDemand) {
     EXPECT_NE(dynamic_cast<InstallBinsCallback*>(_scene->getEventCallback()), nullptr);
 }
 
+// As where the camera looks elsewhere.
+TEST(UnseenDatabase, LetsAViewerRestThatDrawsOnDemand) {
+    InstalledGlobe globe;
+    for (int i = 0; i < 20; ++i) update(*globe.scene);
+    EXPECT_FALSE(needsFrames(*globe.scene));
+    globe.root->addChild(makePaged(makeMeshTile(extentsDeg(0, 1, 0, 1), 9000.0), "no.osgb"));
+    (void)globe.drawsAntipode();
+    EXPECT_TRUE(needsFrames(*globe.scene)) << "to give it a family";
+    update(*globe.scene);
+}
+
 // An osgTerrain::Terrain itself asks for updates always.
 TEST_F(MissingTiles, LetAViewerRestUntilThereIsWork) {
     _scene->setUpdateCallback(nullptr);

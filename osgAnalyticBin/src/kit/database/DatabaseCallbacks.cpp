@@ -200,7 +200,10 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     bringUpToDate(*node, *_database);
     traverse(node, nv);
     const TerrainShape shape = _database->shape(_database->options());
-    if (_database->takeCull() && !_database->needsUpdate(shape)) takeOffUpdate(*node, self);
+    // a database that nobody looks at waits for the view that does
+    constexpr unsigned int kMostUnseen = 16;
+    _unseen = _database->takeCull() ? kMostUnseen : _unseen + 1;
+    if (_unseen >= kMostUnseen && !_database->needsUpdate(shape)) takeOffUpdate(*node, self);
 }
 
 void attachDatabase(osg::Node& node, Database& database, bool isCulling) {

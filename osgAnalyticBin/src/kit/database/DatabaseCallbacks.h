@@ -49,7 +49,8 @@ private:
 /// to.
 void bringUpToDate(osg::Node& node, Database& database);
 
-/// Calls bringUpToDate(). It takes itself off the node when nothing is left to do.
+/// Calls bringUpToDate(). It takes itself off the node when nothing is left to do: after a cull traversal, which finds
+/// most of that, or when none comes.
 class DatabaseUpdateCallback : public osg::NodeCallback {
 public:
     DatabaseUpdateCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
@@ -66,6 +67,7 @@ private:
 
     const osg::ref_ptr<Database> _database;
     const osg::Node* const _node;  // that it was attached to
+    unsigned int _unseen = 0;      // updates without a cull traversal before
 };
 
 /// Attaches a database to the node, in place of one that is there. `isCulling`: see Database.
