@@ -303,8 +303,8 @@ FAULTS = [
           "if (!_surface || toEcef != _toEcef)", "if (!_surface)", SCENES, NAMED),
     Fault("content of files is not looked at when they are merged", "src/kit/install/ContentWatch.cpp",
           "if (watch && watch->_isPending) watch->check(child);", "", NODE, "AddedContent.*"),
-    Fault("spheres of sets are believed", "src/kit/install/SetInstaller.cpp", "if (lod.getCullingActive() && !holdsBox(bound, _loaded))",
-          "if (false)", PLUGIN, "FalseSpheres.*"),
+    Fault("spheres of sets are believed", "src/kit/install/SetInstaller.cpp", "(isBelow || !holdsBox(bound, _loaded))",
+          "(isBelow && !holdsBox(bound, _loaded))", PLUGIN, "FalseSpheres.*"),
     Fault("sets do not notice new content", "src/kit/install/SetInstaller.cpp", "&& cullStack.isCulled(watch->loaded());", ";", PLUGIN,
           "FalseSpheres.*"),
     Fault("content that stood below another tile is known", "src/kit/install/ContentWatch.cpp",
@@ -938,7 +938,8 @@ FAULTS = [
 
     # files that the application reads
     Fault("index: made although the application's callback reads the files", "src/kit/install/InstallBins.cpp",
-          "if (use == IndexUse::Auto && isReadByApplication(node, readOptions)) use = IndexUse::On;", "", NODE, "AutoIndex.*"),
+          "use == IndexUse::Auto && isReadByApplication(node, readOptions)", "use == IndexUse::Off && isReadByApplication(node, readOptions)",
+          NODE, "AutoIndex.*"),
 
     # colours of heights
     Fault("relief: light from the south-east", "applications/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
