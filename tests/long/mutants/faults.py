@@ -715,7 +715,7 @@ FAULTS = [
     Fault("groups of tiles do not watch over their children", "src/kit/install/BinInstaller.cpp",
           "if (TileFamily::needsWatch(group) && !ContentWatch::isOn(group))", "if (false)", NODE, "GroupTree.*"),
     Fault("nobody watches over the watches of tiles in groups without one", "src/kit/install/ContentWatch.cpp",
-          "if (family && family->holds(i, child) && !watchOf(child)) forEachPart(child, keepUnwatchedVisible);", "",
+          "if (isAboveTiles && !watchOf(child)) forEachPart(child, keepUnwatchedVisible);", "",
           SCENES, NAMED + "/own-bounds-in-groups.scene"),
     Fault("what turns in its sphere stays in its bin", "src/kit/install/ContentWatch.cpp",
           "_held[i].state == stateOf(child)", "true", NODE,

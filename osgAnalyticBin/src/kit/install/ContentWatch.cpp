@@ -523,8 +523,9 @@ void ContentWatch::check(const osg::Node& node) const {
         const bool isUnchanged = isOwnFrame && !isDue && isHeld(i, child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         keepUnwatchedVisible(child);
-        // the watch of the child would do this, if there were one
-        if (family && family->holds(i, child) && !watchOf(child)) forEachPart(child, keepUnwatchedVisible);
+        // the watch of the child would do this, if there were one, or if the application had not replaced it
+        const bool isAboveTiles = (family && family->holds(i, child)) || child.getComputeBoundingSphereCallback();
+        if (isAboveTiles && !watchOf(child)) forEachPart(child, keepUnwatchedVisible);
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
