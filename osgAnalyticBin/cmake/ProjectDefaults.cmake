@@ -30,6 +30,15 @@ if(OSGANALYTICBIN_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMP
   endif()
 endif()
 
+# Tests are many programs: gold links them in a third of the time.
+if(OSGANALYTICBIN_TESTS AND PROJECT_IS_TOP_LEVEL AND NOT MSVC)
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold OSGANALYTICBIN_HAS_GOLD)
+  if(OSGANALYTICBIN_HAS_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
+
 if(OSGANALYTICBIN_SANITIZE STREQUAL "thread")
   set(OSGANALYTICBIN_SANITIZERS thread)
 elseif(OSGANALYTICBIN_SANITIZE)
