@@ -188,7 +188,12 @@ TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
 // A single thread has no races. The soak flies in all models.
 const auto kModels = testing::ValuesIn(std::begin(kThreadingModels) + 1, std::end(kThreadingModels));
 
-INSTANTIATE_TEST_SUITE_P(Views, Threads, testing::Combine(kModels, testing::Values(Layout::Views), testing::Values(4)),
+// Cameras with a thread each are many; with a thread for each context two show what there is to see.
+INSTANTIATE_TEST_SUITE_P(Views, Threads,
+                         testing::Values(Parameters{Threading::CullThreadPerCameraDrawThreadPerContext, Layout::Views,
+                                                    4},
+                                         Parameters{Threading::CullDrawThreadPerContext, Layout::Views, 2},
+                                         Parameters{Threading::DrawThreadPerContext, Layout::Views, 2}),
                          caseName);
 INSTANTIATE_TEST_SUITE_P(Slaves, Threads,
                          testing::Combine(kModels, testing::Values(Layout::Slaves), testing::Values(2)), caseName);
