@@ -72,12 +72,13 @@ TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     const osg::ref_ptr<osg::Node> children = readBelow(*_root);
     putBelow(*_root, children);
     osg::Node& north = *children->asGroup()->getChild(1);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) {
+    const auto frame = [this] {
         (void)cull(*_scene, downTo(30, 20));
         update(*_scene);
-    }
-    for (int i = 0; i < 4; ++i) update(*_scene);
+    };
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) frame();
+    for (int i = 0; i < 4; ++i) frame();
     EXPECT_TRUE(isRootWhole());
     EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
 }

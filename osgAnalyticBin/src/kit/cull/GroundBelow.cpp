@@ -124,7 +124,16 @@ private:
         const bool isHigher = std::any_of(other.begin(), other.end(), [&](const glm::dvec3& at) {
             return glm::dot(at - _triangle[0], _normal) > _rounding;
         });
-        return isHigher && !isBeside(_triangle, other) && !isBeside(other, _triangle);
+        return isHigher && !isBeside(_triangle, other) && !isBeside(other, _triangle) && !isAbove(other);
+    }
+
+    // Whether the triangle, and so all that is above it, is on the upper side of the other's plane: skirts lean.
+    [[nodiscard]] bool isAbove(const core::TriangleCorners& other) const {
+        glm::dvec3 normal = glm::cross(other[1] - other[0], other[2] - other[0]);
+        if (glm::dot(normal, _up) < 0.0) normal = -normal;
+        const double room = _rounding * glm::length(normal);
+        return std::all_of(_triangle.begin(), _triangle.end(),
+                           [&](const glm::dvec3& at) { return glm::dot(at - other[0], normal) >= -room; });
     }
 
     // Whether a vertical plane through a side of one triangle has the other beyond it.
@@ -158,10 +167,12 @@ bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) c
 
 // Not before the triangle is to serve again: an eye that moves fast is above another one in each view.
 bool GroundBelow::isTriangleOpen(const Ground& ground, const glm::dvec3& up) {
-    if (_isOpen) return true;
-    OverhangSearch overhang(ground.localToEcef, _triangle, up);
-    ground.mesh.accept(overhang);
-    return _isOpen = overhang.isOpen();
+    if (!_isOpen) {
+        OverhangSearch overhang(ground.localToEcef, _triangle, up);
+        ground.mesh.accept(overhang);
+        _isOpen = overhang.isOpen();
+    }
+    return *_isOpen;
 }
 
 bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid) {
@@ -178,12 +189,14 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, const Ground& ground, const
     VerticalSearch search(ground.localToEcef, point, up, bottom);
     ground.mesh.accept(search);
     if (!search.isBelow()) return false;
+    if (!isSame || _uses >= kMostUses || search.triangle() != _triangle) {
+        _isOpen.reset();
+        _uses = 0;
+    }
     _triangle = search.triangle();
-    _isOpen = false;
     _mesh = &ground.mesh;
     _tile = &ground.tile;
     _localToEcef = ground.localToEcef;
-    _uses = 0;
     return true;
 }
 

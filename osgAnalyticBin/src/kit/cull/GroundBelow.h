@@ -12,6 +12,7 @@
 #include <osg/observer_ptr>
 
 #include <array>
+#include <optional>
 
 namespace osgAnalyticBin {
 
@@ -31,6 +32,7 @@ public:
     /// triangle, where something in the mesh cannot be read, and for terrain tiles that have no mesh yet.
     /// Cost: a search through the mesh's triangles; while the eye stays above the same triangle of a mesh that has not
     /// changed, a second one, and then some ten products of vectors if nothing of the mesh is above that triangle.
+    /// Where something is, each view searches once.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, const Ground& ground, const core::Ellipsoid& ellipsoid);
 
 private:
@@ -42,7 +44,7 @@ private:
     osg::observer_ptr<const osg::Node> _mesh;
     osg::Matrixd _localToEcef;
     int _uses = 0;
-    bool _isOpen = false;                   // the triangle is; false: not known yet
+    std::optional<bool> _isOpen;            // the triangle is, once it is known
     std::array<glm::dvec3, 3> _triangle{};  // ECEF
 };
 
