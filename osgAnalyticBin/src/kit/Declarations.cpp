@@ -18,6 +18,13 @@ constexpr const char* kDrawsAsCullVisitor = "osgAnalyticBin.drawsAsCullVisitor";
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 constexpr const char* kPhotogrammetrySet = "osgAnalyticBin.photogrammetrySet";
 
+// Without values nothing is looked up: that would make a string of the name each time.
+bool isDeclared(const osg::Object& object, const char* name) {
+    bool is = false;
+    if (object.getUserDataContainer()) (void)object.getUserValue(name, is);
+    return is;
+}
+
 }  // namespace
 
 void setTraversesAlways(osg::Callback& callback, bool always) {
@@ -25,9 +32,7 @@ void setTraversesAlways(osg::Callback& callback, bool always) {
 }
 
 bool traversesAlways(const osg::Callback& callback) {
-    bool does = typeid(callback) == typeid(osg::NodeCallback);
-    if (!does && callback.getUserDataContainer()) (void)callback.getUserValue(kTraversesAlways, does);
-    return does;
+    return typeid(callback) == typeid(osg::NodeCallback) || isDeclared(callback, kTraversesAlways);
 }
 
 void setDrawsTriangles(osg::Program& program) {
@@ -35,9 +40,7 @@ void setDrawsTriangles(osg::Program& program) {
 }
 
 bool drawsTriangles(const osg::Program& program) {
-    bool does = false;
-    if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, does);
-    return does;
+    return isDeclared(program, kDrawsTriangles);
 }
 
 void setDrawsAsCullVisitor(osg::NodeVisitor& visitor) {
@@ -45,9 +48,7 @@ void setDrawsAsCullVisitor(osg::NodeVisitor& visitor) {
 }
 
 bool drawsAsCullVisitor(const osg::NodeVisitor& visitor) {
-    bool does = false;
-    if (visitor.getUserDataContainer()) (void)visitor.getUserValue(kDrawsAsCullVisitor, does);
-    return does;
+    return isDeclared(visitor, kDrawsAsCullVisitor);
 }
 
 void markPhotogrammetrySet(osg::Group& set) {
