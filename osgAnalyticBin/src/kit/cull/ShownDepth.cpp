@@ -18,7 +18,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// For one that is at no depth yet.
+// From the viewpoint; walkFor() sets the depths.
 SelectionWalk::Search searchFrom(const Viewpoint& viewpoint, const DatabaseView& view) {
     SelectionWalk::Search search;
     search.isEager = view.expectsHole;

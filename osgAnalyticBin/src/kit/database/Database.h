@@ -69,14 +69,14 @@ public:
     [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
 
     [[nodiscard]] CullOptions options() const;
-    /// The same without a copy, for cull traversals.
+    /// The same without a copy, for cull traversals: setOptions() is not called while one runs.
     [[nodiscard]] const CullOptions& optionsOfCull() const { return _options; }
 
     /// Replaces the options. Tiles that were installed with the old ones but are not merged into the scene yet are
     /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
     void setOptions(const CullOptions& options);
 
-    /// Whether the horizon culls in place of osg::ClusterCullingCallbacks. A map has none.
+    /// Whether the horizon culls in place of osg::ClusterCullingCallbacks. A map has none. For cull traversals.
     [[nodiscard]] bool replacesClusters() const;
 
     /// How often setOptions() was called or an index was adopted.
