@@ -30,6 +30,8 @@ struct TileFrame {
     /// root file itself.
     std::string file;
     bool isBelowTile = false;  ///< Whether the file is paged below a tile: then plain meshes in it are leaf tiles.
+    /// Whether the application attaches the content by itself. Then `file` is a name that others may have, too.
+    bool isAttached = false;
 
     /// Whether the frame is that of a globe or of a map.
     [[nodiscard]] bool isKnown() const { return ellipsoid || isProjected; }

@@ -49,6 +49,8 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
+    Fault("added tiles share what is found of one", "src/kit/database/Database.cpp",
+          "if (tile.isAttached) return;", "", NODE, "AddedTiles.HaveBins*"),
     Fault("tiles follow the Terrain above them alone", "src/kit/install/BinInstaller.cpp",
           "isForeign = isOfOtherTerrain(tile, database())", "isForeign = false", NODE, "OtherTerrain.*"),
     Fault("databases follow no Terrain above them", "src/kit/database/DatabaseCallbacks.cpp",

@@ -120,6 +120,16 @@ TEST(AddedTiles, LeaveNothingBehindWhenTheyAreRemoved) {
     ASSERT_EQ(addTile(*globe.scene, *globe.leaves[3]), 1u) << "again";
 }
 
+// Both have the same name, none, and the first is above the heights that are declared.
+TEST(AddedTiles, HaveBinsOfTheirOwnWhateverIsFoundOfOthers) {
+    AddedGlobe globe;
+    (void)installBins(*globe.scene, onEarth());
+    const osg::ref_ptr<osg::Group> high = makeGroup({makeMeshTile(extentsDeg(0, 10, 0, 10), 1.5e4)});
+    EXPECT_EQ(addTile(*globe.scene, *high), 1u);
+    EXPECT_EQ(addTile(*globe.scene, *globe.leaves[3]), 1u);
+    EXPECT_LT(installedOn(*globe.leaves[3]->getChild(0))->getBin().bin().altitude().upper, 1.4e4);
+}
+
 TEST(AddedTiles, StandInTheFrameOfTheirParent) {
     AddedGlobe globe;
     const CullOptions options = onEarth(declaredHorizon());

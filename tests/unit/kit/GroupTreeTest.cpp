@@ -149,7 +149,7 @@ protected:
     [[nodiscard]] bool isBelieved() const { return block->partFrom(0).believed.load() != 0; }
 
     const osg::ref_ptr<InstalledDatabase> database = new InstalledDatabase(new osg::EllipsoidModel);
-    const osg::ref_ptr<InstalledTile> tile = new InstalledTile(*database, nullptr, "", 0);
+    const osg::ref_ptr<InstalledTile> tile = new InstalledTile(*database, nullptr, {}, 0);
     osg::ref_ptr<TileBlock> block;
 
 private:

@@ -73,6 +73,7 @@ std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& 
         TileFrame inside = frame;
         inside.file = pagedFilePath(frame.file, node.getFileName(i));
         inside.isBelowTile = inside.isBelowTile || isTile;
+        inside.isAttached = false;
         files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
     }
     return files;

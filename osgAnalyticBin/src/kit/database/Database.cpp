@@ -253,7 +253,9 @@ void Database::widen(InstalledTile& tile, const Widening& by) {
     _toWiden.emplace_back(&tile);
 }
 
+// For when the file is read again. What the application attaches is looked at by itself each time.
 void Database::correct(const InstalledTile& tile, const Widening& by) {
+    if (tile.isAttached) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _corrections[{tile.file, *tile.ordinal}].expandBy(by);
 }

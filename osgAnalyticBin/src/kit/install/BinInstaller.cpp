@@ -414,7 +414,7 @@ private:
                                  hasNewContent};
         const TileFit fit = fitTile(tile, sources, shape);
         const osg::ref_ptr<InstalledTile> installed =
-            new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
+            new InstalledTile(database(), _parent.get(), tile.frame, tile.ordinal);
         installed->extents = fit.extents;
         installed->stored = fit.stored;
         for (const auto& [finding, drawn] : fit.findings) Database::report(*installed, finding, drawn);
@@ -462,8 +462,7 @@ private:
     // A record for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
     // _parent.
     [[nodiscard]] osg::ref_ptr<InstalledTile> recordBetween() {
-        const osg::ref_ptr<InstalledTile> record =
-            new InstalledTile(database(), _parent.get(), frame().file, std::nullopt);
+        const osg::ref_ptr<InstalledTile> record = new InstalledTile(database(), _parent.get(), frame(), std::nullopt);
         record->stored = _parent->stored;
         return record;
     }

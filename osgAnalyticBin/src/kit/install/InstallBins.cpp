@@ -140,6 +140,7 @@ std::size_t addTile(osg::Node& database, osg::Node& tile, const osg::Matrixd& pa
     frame.localToEcef = parentToEcef;
     frame.file = tile.getName();
     frame.isBelowTile = true;  // a mesh that pages nothing is a tile
+    frame.isAttached = true;
     // only the application knows what lies between its tiles
     attached->report(Finding::Gap, frame.file);
     const std::size_t installed = attached->install(tile, frame, nullptr);

@@ -7,6 +7,7 @@
 #include "TileBlock.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
@@ -90,9 +91,9 @@ public:
     };
 
     /// `above`, `number`: see parent and ordinal.
-    InstalledTile(InstalledDatabase& database, InstalledTile* above, const std::string& fileName,
+    InstalledTile(InstalledDatabase& database, InstalledTile* above, const TileFrame& frame,
                   std::optional<std::size_t> number)
-        : file(fileName), ordinal(number), parent(above), _database(&database) {}
+        : file(frame.file), ordinal(number), isAttached(frame.isAttached), parent(above), _database(&database) {}
 
     /// For a copied callback: it belongs to no node.
     InstalledTile(const InstalledTile& other);
@@ -100,6 +101,8 @@ public:
     const std::string file;
     /// Of the tile in its file; nullopt: the record is for a node without a bin, between tiles, and has no extents.
     const std::optional<std::size_t> ordinal;
+    /// See TileFrame.
+    const bool isAttached = false;
     /// The tile that pages the file, or that the tile stands below; null: none.
     const osg::ref_ptr<InstalledTile> parent;
     Extents extents;

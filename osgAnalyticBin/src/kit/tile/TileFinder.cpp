@@ -192,6 +192,7 @@ void TileFinder::traversePaged(osg::PagedLOD& node) {
         TileFrame inside = _frame;
         inside.file = pagedFilePath(_frame.file, node.getFileName(i));
         inside.isBelowTile = _frame.isBelowTile || isTile;
+        inside.isAttached = false;
         const Scoped frame(_frame, inside);
         const Scoped<std::size_t> ordinal(_ordinal, 0);
         node.getChild(i)->accept(*this);
