@@ -45,10 +45,11 @@ struct PoseFigures {
 /// of some frames each, starting with another one every time; in the turns of others a method's pager and clock stand
 /// still. Frames are culled, not drawn, as drawing by software would set the pace.
 /// --jumps: from pose to pose, from the root file alone on, standing at each until nothing is missing.
-/// --draw: continuously, in a viewer, one frame after the other as fast as they come. Each method flies the whole path
-/// from the root file alone, several times; the methods take turns flight by flight.
-/// Throws: Failure when the database cannot be read, there is nothing to draw on, or a pose of --jumps takes longer
-/// than the timeout. Progress goes to stderr.
+/// --draw: continuously, in a viewer, at the settings' rate at most. A frame is timed once all that it shows is loaded,
+/// so that all methods draw the same scene. Each method flies the whole path from the root file alone, several times;
+/// the methods take turns flight by flight.
+/// Throws: Failure when the database cannot be read, there is nothing to draw on, or what a pose of --jumps or a frame
+/// of --draw shows takes longer than the timeout to load. Progress goes to stderr.
 [[nodiscard]] Measurement fly(const Settings& settings, const std::vector<CullMethod>& methods,
                               const std::vector<flight::CameraPose>& path, FileWatch& watch);
 

@@ -5,6 +5,12 @@
 
 #include "Failure.h"
 
+#include <OpenThreads/Thread>
+#include <osg/Timer>
+#include <osgDB/DatabasePager>
+
+#include <chrono>
+
 namespace osgAnalyticBin::bench {
 
 using support::Failure;
@@ -86,6 +92,9 @@ void BenchViewer::drawFrame() {
     const bool threaded = _viewer.getThreadingModel() != osgViewer::ViewerBase::SingleThreaded;
     if (threaded && !_viewer.areThreadsRunning()) _viewer.startThreading();
     _viewer.frame();
+    // the viewer keeps the times of some frames alone
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
+    if (frame > kFramesBehind) collectTimes(frame - kFramesBehind);
 }
 
 osg::ref_ptr<osg::Image> BenchViewer::pictureOf(osg::Node& root, const osg::Camera& view,
@@ -113,35 +122,42 @@ void BenchViewer::startTimes() {
     if (!stats.collectStats("rendering")) camera.addFinalDrawCallback(new FinishDrawing);
     stats.collectStats("rendering", true);
     _times.clear();
-    _firstTimed = _firstUnread = _viewer.getFrameStamp()->getFrameNumber() + 1;
-    _begin = std::chrono::steady_clock::now();
+    _timed.clear();
+    _read = 0;
+}
+
+bool BenchViewer::drawUntilLoaded(double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();
+    do {
+        drawFrame();
+        if (!pager.requiresUpdateSceneGraph() && !pager.getRequestsInProgress()) return true;
+        OpenThreads::Thread::microSleep(1000);
+    } while (Clock::now() < end);
+    return false;
 }
 
 void BenchViewer::timeFrame() {
+    const osg::ElapsedTime begin;
     drawFrame();
-    const auto end = std::chrono::steady_clock::now();
-    _times.push_back({0.0, 0.0, std::chrono::duration<double, std::milli>(end - _begin).count()});
-    _begin = end;
-    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
-    if (frame >= _firstTimed + kFramesBehind) collectTimes(frame - kFramesBehind + 1);
+    _times.push_back({0.0, 0.0, begin.elapsedTime_m()});
+    _timed.push_back(_viewer.getFrameStamp()->getFrameNumber());
 }
 
-void BenchViewer::collectTimes(unsigned int before) {
-    for (; _firstUnread < before; ++_firstUnread) {
-        FrameTimes& times = _times[_firstUnread - _firstTimed];
+void BenchViewer::collectTimes(unsigned int last) {
+    for (; _read < _timed.size() && _timed[_read] <= last; ++_read) {
         const auto read = [&](const char* name, double& ms) {
-            if (_viewer.getCamera()->getStats()->getAttribute(_firstUnread, name, ms)) ms *= 1000.0;
+            if (_viewer.getCamera()->getStats()->getAttribute(_timed[_read], name, ms)) ms *= 1000.0;
         };
-        read("Cull traversal time taken", times.cullMs);
-        read("Draw traversal time taken", times.drawMs);
+        read("Cull traversal time taken", _times[_read].cullMs);
+        read("Draw traversal time taken", _times[_read].drawMs);
     }
 }
 
 std::vector<FrameTimes> BenchViewer::takeTimes() {
-    const unsigned int end = _viewer.getFrameStamp()->getFrameNumber() + 1;
     for (unsigned int i = 0; i < kFramesBehind; ++i) drawFrame();
-    collectTimes(end);
-    if (!_times.empty()) _times.erase(_times.begin());
+    collectTimes(_viewer.getFrameStamp()->getFrameNumber());
     return std::move(_times);
 }
 

@@ -8,7 +8,7 @@
 #include <osg/Image>
 #include <osgViewer/Viewer>
 
-#include <chrono>
+#include <cstddef>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
@@ -17,7 +17,7 @@ namespace osgAnalyticBin::bench {
 struct FrameTimes {
     double cullMs = 0.0;
     double drawMs = 0.0;
-    double frameMs = 0.0;  ///< from the frame's begin to the next one's
+    double frameMs = 0.0;  ///< of the call that draws it; with a draw thread, until the frame before is drawn
 };
 
 /// The one viewer of the process: draws now this scene, now that one, on an invisible surface.
@@ -47,10 +47,14 @@ public:
     /// Frames are timed from now on.
     void startTimes();
 
-    /// Draws a frame as fast as it comes.
+    /// Draws frames that are not timed until the pager has nothing left to read for this view, for `seconds` at most.
+    /// Returns: whether it has nothing left.
+    [[nodiscard]] bool drawUntilLoaded(double seconds);
+
+    /// Draws a frame that is timed.
     void timeFrame();
 
-    /// The times of all timed frames but the first, which has nothing loaded, once they have been drawn.
+    /// The times of all timed frames, once they have been drawn.
     [[nodiscard]] std::vector<FrameTimes> takeTimes();
 
     /// Ends all drawing, so that the scene may be looked at by others; the next frame starts it again.
@@ -58,13 +62,13 @@ public:
 
 private:
     void drawFrame();
-    void collectTimes(unsigned int before);
+    void collectTimes(unsigned int last);
 
     osgViewer::Viewer _viewer;
     osg::ref_ptr<flight::FrameCapture> _capture;
-    std::vector<FrameTimes> _times;  // of frames from _firstTimed on
-    unsigned int _firstTimed = 0, _firstUnread = 0;
-    std::chrono::steady_clock::time_point _begin;
+    std::vector<FrameTimes> _times;
+    std::vector<unsigned int> _timed;  // the numbers of these frames
+    std::size_t _read = 0;             // of these, those whose times of culling and drawing are known
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -19,6 +19,8 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::size_t kFramesPerTurn = 50;
 constexpr std::size_t kRounds = 3;  // of flights that are drawn
 
@@ -65,8 +67,6 @@ public:
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     // While a method has its turn its pager runs, and what is read counts.
     class Turn {
     public:
@@ -107,7 +107,8 @@ private:
     std::vector<double> _times;
 };
 
-/// The frames of all flights of one method.
+/// The frames of all flights of one method, each drawn when all that it shows is loaded, so that all methods draw the
+/// same scene, and at the frame rate, so that caches have forgotten as much as in a viewer.
 class DrawnFlight {
 public:
     static constexpr const char* kLeftOut = " is not drawn in flight";
@@ -116,7 +117,7 @@ public:
     }
 
     DrawnFlight(const CullMethod& method, const Settings& settings, FileWatch& watch)
-        : _scene(method, settings, watch) {}
+        : _scene(method, settings, watch), _period(1.0 / settings.frameRate), _timeout(settings.timeout) {}
 
     void fly(BenchViewer& viewer, const std::vector<flight::CameraPose>& frames) {
         _scene.load();
@@ -127,6 +128,9 @@ public:
             if (_times.empty()) support::throwIfStopRequested();
             _scene.setPose(pose);
             viewer.setView(_scene.camera());
+            const auto next = Clock::now() + _period;
+            if (!viewer.drawUntilLoaded(_timeout)) throw _scene.lateAt(pose);
+            std::this_thread::sleep_until(next);
             viewer.timeFrame();
         }
         const std::vector<FrameTimes> times = viewer.takeTimes();
@@ -159,6 +163,8 @@ public:
 
 private:
     MethodScene _scene;
+    const std::chrono::duration<double> _period;
+    const double _timeout;
     std::vector<FrameTimes> _times;
 };
 
@@ -209,8 +215,8 @@ Measurement flyDrawn(const Settings& settings, const std::vector<CullMethod>& me
     viewer.sortByState();
     const auto flights = flightsOf<DrawnFlight>(settings, methods, watch);
     for (std::size_t round = 0; round < kRounds && (round == 0 || !support::stopRequested); ++round) {
-        std::cerr << "osgbinbench: " << frames.size() << " frames drawn with paging live, round " << round + 1 << " of "
-                  << kRounds << std::endl;
+        std::cerr << "osgbinbench: " << frames.size() << " frames drawn, round " << round + 1 << " of " << kRounds
+                  << std::endl;
         for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);
     }
     return figuresOf(flights);

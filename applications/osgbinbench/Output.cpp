@@ -155,8 +155,7 @@ std::vector<TextTable> tablesOf(const Measurement& measured) {
     const Json sums = sumsOf(methods, allOf(methods.front()));
     Json shown = sums;
     addTimesOverOracle(shown);
-    std::vector<TextTable> tables{poses.empty() ? tableOf("paging live", shown, 4)
-                                                : tableOf("sums over poses", shown, 3)};
+    std::vector<TextTable> tables{poses.empty() ? tableOf("frames", shown, 4) : tableOf("sums over poses", shown, 3)};
     addRatios(tables, sums);
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
     if (groups.size() > 1) tables.push_back(tableByPath(groups, methods));

@@ -175,8 +175,9 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(0, 65536));
     app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all")
         ->check(CLI::Range(1, 1000000));
-    app.add_flag("--draw", settings.draw,
-                 "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
+    app.add_flag(
+        "--draw", settings.draw,
+        "draws the frames of --frames in a viewer, each once all of it\nis loaded, and times them instead of counting");
     app.add_flag("--jumps", settings.jumps,
                  "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
     app.add_option("--frame-rate", settings.frameRate,
