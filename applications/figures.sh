@@ -90,7 +90,7 @@ on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path data/paths/demo.csv
     --repeats 16 --csv "$out/methods.csv" --json "$out/methods.json" >"$out/methods.txt"
 
 step "The published experiment"
-"$build/bin/osgbinpaper" --csv "$out/paper.csv" --plot "$out/paper" >"$out/paper.txt"
+"$build/bin/osgbinpaper" --csv "$out/paper.csv" >"$out/paper.txt"
 
 if [ -n "${GTOPO30:-}" ]; then
     step "The same over 30 arc seconds"
@@ -112,8 +112,7 @@ if [ "${1:-}" = commit ]; then
     step "Tables and pictures for results.md"
     mkdir -p osgAnalyticBin/doc/results
     python3 applications/tables.py "$out" osgAnalyticBin/doc/results
-    for picture in paths/drawn paths/files paths/cull paper/figure1 paper/figure2 paper/figure3 \
-        paper/figure4 paper/figure5 paper/wrong_cull_corners paper/wrong_cull_paper; do
+    for picture in paths/drawn paths/files paths/cull; do
         cp "$out/$picture.png" "osgAnalyticBin/doc/results/$(echo "$picture" | tr / _).png"
     done
     for picture in "$out"/scale/*.png; do cp "$picture" "osgAnalyticBin/doc/results/scale_$(basename "$picture")"; done

@@ -51,25 +51,11 @@ core::Plane through(const glm::dvec3& inward, const glm::dvec3& point) {
     return {normal, -glm::dot(normal, point)};
 }
 
-}  // namespace
-
-double Camera::tangent() const noexcept {
-    return std::tan(0.5 * fovDeg * kRadiansPerDegree);
-}
-
-std::array<core::Plane, 4> Camera::planes() const noexcept {
-    const double half = tangent();
-    return {through(right + kAspect * half * forward, eye), through(-right + kAspect * half * forward, eye),
-            through(up + half * forward, eye), through(-up + half * forward, eye)};
-}
-
-std::array<glm::dvec3, 4> Camera::edges() const noexcept {
-    const glm::dvec3 x = kAspect * tangent() * right;
-    const glm::dvec3 y = tangent() * up;
-    return {forward - x - y, forward + x - y, forward + x + y, forward - x + y};
-}
-
-CameraAxes cameraAxes(const core::Geodetic& position, double azimuth, double pitch) noexcept {
+// Looks along an azimuth (degrees, clockwise from north), so much below the horizontal.
+Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg, double pitchDeg,
+                double fovDeg) {
+    const double azimuth = azimuthDeg * kRadiansPerDegree;
+    const double pitch = -pitchDeg * kRadiansPerDegree;
     const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
     const glm::dvec3 axis(0.0, 0.0, 1.0);
     const glm::dvec3 east = glm::cross(axis, radial);
@@ -78,19 +64,15 @@ CameraAxes cameraAxes(const core::Geodetic& position, double azimuth, double pit
     const glm::dvec3 level = std::sin(azimuth) * east + std::cos(azimuth) * north;
     const glm::dvec3 forward = std::cos(pitch) * level + std::sin(pitch) * zenith;
     const glm::dvec3 right = glm::normalize(glm::cross(level, zenith));
-    return {forward, right, glm::cross(right, forward)};
+    return {ellipsoid.toEcef(position), forward, right, glm::cross(right, forward), fovDeg};
 }
 
-Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg, double pitchDeg,
-                double fovDeg) noexcept {
-    const CameraAxes axes = cameraAxes(position, azimuthDeg * kRadiansPerDegree, -pitchDeg * kRadiansPerDegree);
-    Camera camera;
-    camera.eye = ellipsoid.toEcef(position);
-    camera.forward = axes.forward;
-    camera.right = axes.right;
-    camera.up = axes.up;
-    camera.fovDeg = fovDeg;
-    return camera;
+}  // namespace
+
+std::array<core::Plane, 4> Camera::planes() const noexcept {
+    const double half = std::tan(0.5 * fovDeg * kRadiansPerDegree);
+    return {through(right + kAspect * half * forward, eye), through(-right + kAspect * half * forward, eye),
+            through(up + half * forward, eye), through(-up + half * forward, eye)};
 }
 
 Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number) {

@@ -24,12 +24,6 @@ struct Camera {
 
     /// Left, right, bottom, top.
     [[nodiscard]] std::array<core::Plane, 4> planes() const noexcept;
-
-    /// The directions of the edges of the frustum, one metre deep: lower left, lower right, upper right, upper left.
-    [[nodiscard]] std::array<glm::dvec3, 4> edges() const noexcept;
-
-    /// Half the height of the picture one metre from the eye.
-    [[nodiscard]] double tangent() const noexcept;
 };
 
 /// A kind of view: cameras are drawn at random within its limits.
@@ -46,18 +40,6 @@ inline constexpr std::array<ViewKind, 6> kViewKinds{{{"low, fov 60", 60.0, 2e2, 
                                                      {"oblique, fov 10", 10.0, 1e4, 5e5, 15.0, 60.0},
                                                      {"high, fov 60", 60.0, 1e6, 1e7, 60.0, 90.0},
                                                      {"high, fov 10", 10.0, 1e6, 1e7, 60.0, 90.0}}};
-
-/// The axes of a camera, in ECEF.
-struct CameraAxes {
-    glm::dvec3 forward, right, up;
-};
-
-/// Looks along an azimuth, clockwise from north, so much above the horizontal; radians.
-[[nodiscard]] CameraAxes cameraAxes(const core::Geodetic& position, double azimuth, double pitch) noexcept;
-
-/// A camera above a position, looking along an azimuth (degrees, clockwise from north), so much below the horizontal.
-[[nodiscard]] Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg,
-                              double pitchDeg, double fovDeg) noexcept;
 
 /// The camera of that number of a kind: above the raster's extent, the same in every run.
 [[nodiscard]] Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number);

@@ -4,6 +4,7 @@
 #include "Experiment.h"
 
 #include "Table.h"
+#include "TextFile.h"
 
 #include <ostream>
 #include <tuple>
@@ -50,7 +51,6 @@ public:
     CameraRun(Terrain& terrain, std::size_t kind, std::size_t number, Results& results)
         : _terrain(terrain),
           _kind(kind),
-          _number(number),
           _camera(randomCamera(terrain, kind, number)),
           _tree(terrain, _camera),
           _results(results) {}
@@ -78,8 +78,7 @@ private:
         counts.wrongInsides = verdict == Verdict::Inside && !isTrulyInside(tile.bins.exact, _camera) ? 1 : 0;
         if (verdict != Verdict::Outside || !tile.witness || tile.witness->depth <= kRounding) return counts;
         const auto seen = findTerrainWitness(_terrain, tile.box, _camera);
-        const WrongCull found{_camera,         _kind, _number, tile.id, tile.box, seen ? *seen : *tile.witness,
-                              seen.has_value()};
+        const WrongCull found{_camera, tile.box, seen ? *seen : *tile.witness, seen.has_value()};
         counts.wrongCulls = 1;
         counts.holes = found.isHole ? 1 : 0;
         if (!worst || isWorse(found, *worst)) worst = found;
@@ -87,7 +86,7 @@ private:
     }
 
     Terrain& _terrain;
-    std::size_t _kind, _number;
+    std::size_t _kind;
     Camera _camera;
     TileTree _tree;
     Results& _results;
@@ -149,6 +148,11 @@ void printTables(std::ostream& output, const Results& results) {
     for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) add(kViewKinds[kind].name, results.views[kind]);
     add("all views", results.sum());
     table.print(output);
+    for (std::size_t method = 0; method < kMethods; ++method)
+        if (const auto& worst = results.worst[method])
+            output << kMethodNames[method] << " culls a tile of which a point is "
+                   << support::withDecimals(worst->witness.depth * 1e-3, 1) << " km inside the frustum"
+                   << (worst->isHole ? ", and in view" : "") << '\n';
 }
 
 std::string meaningOfColumns() {

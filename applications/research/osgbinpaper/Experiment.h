@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "Diagram.h"
 #include "TileTree.h"
 
 #include <array>
@@ -12,7 +11,6 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace osgAnalyticBin::paper {
 
@@ -41,9 +39,6 @@ struct ViewResult {
 /// A tile that a method culls wrongly, and the proof.
 struct WrongCull {
     Camera camera;
-    std::size_t kind = 0;
-    std::size_t number = 0;
-    TileId tile;
     core::GeodeticBin box;
     Witness witness;
     bool isHole = false;
@@ -65,16 +60,10 @@ struct Results {
 
 /// A line for each kind of view and method, after a line of column names; the same in every run.
 [[nodiscard]] std::string csvOf(const Results& results);
-/// The same for people, and the sums over all views.
+/// The same for people, the sums over all views, and how far inside the frustum the worst wrong culls are.
 void printTables(std::ostream& output, const Results& results);
 
 /// The columns, for the help: one a line.
 [[nodiscard]] std::string meaningOfColumns();
-
-/// figure1: a bin in both of its coordinate systems; figure2: a bin that straddles a side of the frustum, and the
-/// ranges of its distances to the sides; figure3: the 128 start tiles and their heights; figure4: the recursion on a
-/// map; figure5: the terrain of the tiles drawn, with their outlines; wrong_cull_corners, wrong_cull_paper: the tile,
-/// the frustum and the witness, where the cameras met such a cull. Their gnuplot commands are in the folder figures.
-[[nodiscard]] std::vector<report::Diagram> figuresOf(Terrain& terrain, const Results& results);
 
 }  // namespace osgAnalyticBin::paper

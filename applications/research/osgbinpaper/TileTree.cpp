@@ -57,13 +57,6 @@ Side TileBins::classify(Method method, const Frustum& frustum) const noexcept {
     return isApart ? Side::Outside : Side::Straddling;
 }
 
-Side TileBins::classify(Method method, const core::Plane& plane) const noexcept {
-    core::PlaneSet one;
-    one.push_back(plane);
-    core::PlaneMask undecided = one.all();
-    return classify(method, one, undecided);
-}
-
 namespace {
 
 constexpr int kSearchSteps = 6;

@@ -45,8 +45,6 @@ struct TileBins {
 
     /// Where the tile lies with respect to the frustum.
     [[nodiscard]] core::Side classify(Method method, const Frustum& frustum) const noexcept;
-    /// With respect to one plane. Requires: another method than Hull.
-    [[nodiscard]] core::Side classify(Method method, const core::Plane& plane) const noexcept;
 
     rivals::BoxBin box;
     rivals::CornersBin corners;

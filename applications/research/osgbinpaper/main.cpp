@@ -23,7 +23,6 @@ struct Settings {
     int levels = 6;
     int cameras = 400;  // of each kind
     std::string csv;
-    std::string plot;
 };
 
 std::string footer() {
@@ -36,7 +35,7 @@ std::string footer() {
            "Columns, sums over cameras:\n" +
            meaningOfColumns() +
            "\nExit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
-           "Example:\n  osgbinpaper --cameras 200 --csv paper.csv --plot figures\n";
+           "Example:\n  osgbinpaper --cameras 200 --csv paper.csv\n";
 }
 
 void declare(CLI::App& app, Settings& settings) {
@@ -49,7 +48,6 @@ void declare(CLI::App& app, Settings& settings) {
     app.add_option("--cameras", settings.cameras, "cameras of each of the six kinds of view (default: 400)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--csv", settings.csv, "write the counts to this file, a line for each view and method");
-    app.add_option("--plot", settings.plot, "draw the figures into this folder (needs gnuplot)");
 }
 
 void measure(const Settings& settings) {
@@ -63,7 +61,6 @@ void measure(const Settings& settings) {
     printTables(std::cout, results);
     if (!std::cout.flush()) throw Failure("cannot write the tables to standard output");
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results));
-    if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, figuresOf(terrain, results));
 }
 
 ExitCode run(int argc, char** argv) {
