@@ -50,13 +50,6 @@ Json sumsOf(const std::vector<MethodFigures>& methods, const PathGroup& group) {
     return sums;
 }
 
-Json byPose(const MethodFigures& method) {
-    Json columns;
-    for (const Json& row : method.rows)
-        for (const auto& [column, value] : row.items()) columns[column].push_back(value);
-    return columns;
-}
-
 // Gives each method its times as multiples of what culling would cost if tests were free, where that was measured.
 void addTimesOverOracle(Json& methods) {
     if (!methods.contains(kOracleMethod)) return;
@@ -144,9 +137,6 @@ std::string jsonOf(const Settings& settings, const Measurement& measured) {
         path["poses"] = group.poses.size();
         path["methods"] = sumsOf(methods, group);
     }
-    if (!isFlight) json["pose_names"] = poses;
-    for (const MethodFigures& method : methods)
-        if (!isFlight) json["by_pose"][method.method] = byPose(method);
     return json.dump(2) + "\n";
 }
 

@@ -21,8 +21,8 @@ namespace osgAnalyticBin::bench {
 [[nodiscard]] std::string csvOf(const Measurement& measured);
 
 /// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
-/// by name, with "methods" as above over the poses of one path, "by_pose", by method and column, what was measured at
-/// each of "pose_names". "interrupted" is there after Ctrl-C: what was measured until then.
+/// by name, with "methods" as above over the poses of one path. "interrupted" is there after Ctrl-C: what was measured
+/// until then.
 [[nodiscard]] std::string jsonOf(const Settings& settings, const Measurement& measured);
 
 /// Sums for people, with times over those of "oracle" where that was measured, then their ratios to "sphere" and

@@ -4,7 +4,6 @@
 #include "Settings.h"
 
 #include "CommandLine.h"
-#include "Compare.h"
 #include "CsvTable.h"
 #include "CullMethod.h"
 #include "Failure.h"
@@ -112,13 +111,9 @@ std::string footer() {
     return text + linesOf(kPoseColumns) + "\nThe same with --frames and --jumps:\n" + linesOf(kFlightColumns) +
            "\nThe same with --draw, over three flights of each method but none:\n" + linesOf(kDrawnColumns) +
            "\n"
-           "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
-           "the\n"
-           "figures of every pose, in the order of \"pose_names\".\n\n" +
-           comparisonRule() +
-           "\n"
-           "Needs a display, except for --compare. Exit code: 0; 1 when something failed (one line says what, and no\n"
-           "table is written) or when --compare found something worse; 2 when the command line is wrong.\n\n"
+           "\"paths\" in --json holds the sums of the poses whose names share the text before the first _.\n\n"
+           "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written; 2 when\n"
+           "the command line is wrong.\n\n"
            "Examples:\n"
            "  xvfb-run -a osgbinbench earth.osgb\n"
            "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
@@ -150,12 +145,6 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "(HTML; default without --path: report.html)");
     app.add_option("--plot", settings.plot,
                    "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
-    app.add_option(
-           "--compare", settings.compared,
-           "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the "
-           "second")
-        ->type_name("OLD NEW")
-        ->expected(2);
     app.add_option("--vertical-scale", settings.verticalScale,
                    "factor for the heights of an osgTerrain database (default 1)")
         ->check(support::within(0.001, 1000.0));
@@ -192,12 +181,6 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
 }
 
 void check(const Settings& settings) {
-    if (!settings.compared.empty()) {
-        if (!settings.database.empty() || !settings.paths.empty())
-            throw UsageError(
-                "--compare: takes two files of --json and measures nothing; leave DATABASE and --path out");
-        return;
-    }
     if (settings.database.empty()) throw UsageError("DATABASE is required; see osgbinbench --help");
     if (std::filesystem::path(settings.database).extension().empty() && !std::filesystem::exists(settings.database))
         throw UsageError("there is no database and no command \"" + settings.database +

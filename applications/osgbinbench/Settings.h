@@ -26,7 +26,6 @@ struct Settings {
     std::string pictures;
     std::string plot;
     std::string report;
-    std::vector<std::string> compared;  ///< two files of --json, old and new, instead of a measurement
     double verticalScale = 1.0;
     int width = 1280;
     int height = 720;
@@ -42,7 +41,7 @@ struct Settings {
 };
 
 /// Reads the command line; --help is answered at once.
-/// Returns: whether there is something to measure, or to compare.
+/// Returns: whether there is something to measure.
 /// Throws: Failure when an option is unknown, malformed or out of range.
 [[nodiscard]] bool settingsFromCommandLine(int argc, char** argv, Settings& settings);
 

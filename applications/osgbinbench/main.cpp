@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "Bench.h"
-#include "Compare.h"
 #include "Failure.h"
 #include "ModuleFolder.h"
 #include "Output.h"
@@ -93,8 +92,6 @@ void measure(const Settings& settings) {
 ExitCode run(int argc, char** argv) {
     Settings settings;
     if (!settingsFromCommandLine(argc, argv, settings)) return kSucceeded;
-    if (!settings.compared.empty())
-        return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kFailed : kSucceeded;
     // bins are installed at every pose, and the plugin says so each time
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
     shareMemoryAmongThreads();

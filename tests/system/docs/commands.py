@@ -17,7 +17,7 @@ PROGRAM = re.compile(r"(sh|export|cmake|sudo|pkg-config|osgviewer|osgconv|osgbin
 # Words that stand for something, and long runs made short.
 STAND_INS = [(r"\bDATABASE\b", "earth.osgb"), (r"\bearth\.ive", "other.osgb"), (r"\bDIR\.\.\.", "none"), (r"--trials \d+", "--trials 1000"),
              (r"--cameras \d+", "--cameras 2"), (r"--size \S+ ", ""),
-             (r"(osgbinbench) (?!--compare|report|scale)", r"\1 --size 160x90 --repeats 1 --flush 1 "), (r"\bold\.json new\.json", "old.json old.json"),
+             (r"(osgbinbench) (?!report|scale)", r"\1 --size 160x90 --repeats 1 --flush 1 "),
              # the databases that other commands show are there before
              (r"(\bosgbindem) (?!.*--(?:update|overwrite))", r"\1 --overwrite "),
              (r"(osgbinpaper) ", r"\1 globe.tif --levels 1 --cameras 2 "),
