@@ -112,7 +112,8 @@ std::string footer() {
            "\nThe same with --draw, over three flights of each method but none:\n" + linesOf(kDrawnColumns) +
            "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _.\n\n"
-           "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written; 2 when\n"
+           "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written; 2 "
+           "when\n"
            "the command line is wrong.\n\n"
            "Examples:\n"
            "  xvfb-run -a osgbinbench earth.osgb\n"
@@ -127,9 +128,11 @@ struct Words {
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
-    app.add_option("--path", settings.paths,
-                   "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
-                   "in place of degrees; may be given\nseveral times (default: around the database)")
+    app.add_option(
+           "--path", settings.paths,
+           "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
+           "in place of degrees; or *.path, as key z\nof OpenSceneGraph's viewers records it; may be given several "
+           "times\n(default: around the database)")
         ->allow_extra_args(false);
     app.add_option("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)")
         ->delimiter(',')

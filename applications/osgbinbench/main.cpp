@@ -3,8 +3,10 @@
 
 #include "Bench.h"
 #include "Failure.h"
+#include "MethodScene.h"
 #include "ModuleFolder.h"
 #include "Output.h"
+#include "PathFiles.h"
 #include "Report.h"
 #include "ScaleCommand.h"
 #include "TextFile.h"
@@ -32,7 +34,12 @@ void shareMemoryAmongThreads() {
 
 std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
     if (settings.paths.empty()) return defaultPath(settings, watch);
-    return osgAnalyticBin::flight::readCameraPathFiles(settings.paths);
+    return osgAnalyticBin::flight::readCameraPathFiles(settings.paths, [&] {
+        MethodScene scene(cullMethodFromName("sphere"), settings, watch);
+        scene.load();
+        scene.pause();
+        return scene.globe();
+    });
 }
 
 void write(const Settings& settings, const Measurement& measured) {

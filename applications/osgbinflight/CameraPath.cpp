@@ -13,12 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <map>
+#include <istream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace osgAnalyticBin::flight {
 
@@ -161,46 +158,6 @@ std::vector<CameraPose> readCameraPath(std::istream& input, const std::string& f
     }
     if (path.empty()) throw Failure(fileName + ": no pose");
     return path;
-}
-
-std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames) {
-    std::vector<CameraPose> joined;
-    std::map<std::string, std::string> fileOfName;
-    for (const std::string& fileName : fileNames) {
-        std::ifstream input(fileName);
-        if (!input) throw Failure(fileName + ": cannot be opened");
-        const std::vector<CameraPose> path = readCameraPath(input, fileName);
-        const double begin = joined.empty() ? 0.0 : joined.back().time + 1.0 - path.front().time;
-        for (CameraPose pose : path) {
-            const auto [known, isNew] = fileOfName.emplace(pose.name, fileName);
-            if (!isNew) throw Failure(fileName + ": name \"" + pose.name + "\" is used in " + known->second + " too");
-            pose.time += begin;
-            joined.push_back(std::move(pose));
-        }
-    }
-    return joined;
-}
-
-std::string textOf(const std::vector<CameraPose>& path) {
-    const bool havePlanes =
-        std::any_of(path.begin(), path.end(), [](const CameraPose& pose) { return pose.hasPlanes(); });
-    std::ostringstream out;
-    out.precision(std::numeric_limits<double>::max_digits10);
-    out << kNameColumn;
-    for (std::size_t i = EyeLat; i <= (havePlanes ? Far : Fov); ++i) out << ',' << kNumbers[i].name;
-    out << ',' << kNumbers[Time].name << ',' << kNumbers[Roll].name << '\n';
-    std::size_t number = 0;
-    for (const CameraPose& pose : path) {
-        ++number;
-        out << (pose.name.empty() ? "flight" + std::to_string(number) : pose.name);
-        for (const core::Geodetic& point : {pose.eye, pose.look})
-            out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
-                << point.altitude;
-        out << ',' << pose.verticalFov * kDegreesPerRadian;
-        if (havePlanes) out << ',' << pose.nearPlane << ',' << pose.farPlane;
-        out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian << '\n';
-    }
-    return out.str();
 }
 
 namespace {

@@ -13,7 +13,7 @@ namespace osgAnalyticBin::flight {
 
 /// One stop of a camera path. Radians and metres.
 struct CameraPose {
-    std::string name;    ///< letters, digits, `_` and `-`: it names the picture's file too; empty: the writer gives one
+    std::string name;    ///< letters, digits, `_` and `-`: it names the picture's file too
     core::Geodetic eye;  ///< where the camera stands
     core::Geodetic look;       ///< a point on the line of sight
     double verticalFov = 0.0;  ///< the whole angle
@@ -37,14 +37,6 @@ struct CameraPose {
 /// line, when a column is missing or unknown, a number is malformed or out of range, time does not grow, a name is used
 /// twice, or there is no pose.
 [[nodiscard]] std::vector<CameraPose> readCameraPath(std::istream& input, const std::string& fileName);
-
-/// Reads several files, one or more, and joins them to one path: the first pose of each is one second after the last of
-/// the file before. Throws: Failure when a file cannot be opened, or is broken, or two share a pose's name.
-[[nodiscard]] std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames);
-
-/// A camera path over a globe as readCameraPath() reads it: metres and seconds read back exactly, angles but for the
-/// last bit. Poses without a name are flight1, flight2 and so on; `eyeRight` is not written.
-[[nodiscard]] std::string textOf(const std::vector<CameraPose>& path);
 
 /// A continuous flight from the first pose of a path to the last, its time evenly divided into frames: eye and look
 /// point run along great circles, altitudes above zero, fields of view, near and far grow by equal ratios, roll and the

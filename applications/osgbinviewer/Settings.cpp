@@ -18,8 +18,8 @@ void describe(osg::ApplicationUsage& usage) {
     usage.addCommandLineOption("--version", "Display the version.");
     usage.addCommandLineOption("--options <text>",
                                "Culling, as \"method=exact,horizon=off\"; see osgconv --format analyticbin.");
-    usage.addCommandLineOption("--record <file.csv>",
-                               "Record the camera for osgbinbench from the start; key R stops and starts.");
+    usage.addCommandLineOption("--record <file.path>",
+                               "Record the camera for osgbinbench from the start; key z stops and starts.");
     usage.addCommandLineOption("-p <file.path>", "Fly along an animation path of OpenSceneGraph.");
     usage.addCommandLineOption("--speed <factor>", "How fast animation paths are flown.");
     usage.addCommandLineOption("--traffic <number>",
@@ -41,7 +41,7 @@ void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int hel
            "wrong.\n\n"
            "Examples:\n"
            "  osgbinviewer earth.osgb\n"
-           "  osgbinviewer earth.ive --options method=exact,heights=-500..4000 --record flight.csv\n"
+           "  osgbinviewer earth.ive --options method=exact,heights=-500..4000 --record flight.path\n"
            "  osgbinviewer earth.osgb --steps \"at=home press=B picture=bins.png\""
         << std::endl;
 }

@@ -5,6 +5,7 @@
 #include "FrameCapture.h"
 #include "Handlers.h"
 #include "ModuleFolder.h"
+#include "PathFiles.h"
 #include "Settings.h"
 #include "Traffic.h"
 #include "ViewTools.h"
@@ -66,7 +67,12 @@ osg::ref_ptr<viewer::SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, cons
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
-    viewer.addEventHandler(new osgViewer::RecordCameraPathHandler);
+    viewer.addEventHandler(
+        new osgViewer::RecordCameraPathHandler(settings.record.empty() ? "saved_animation.path" : settings.record));
+    if (!settings.record.empty()) {
+        viewer.getEventQueue()->keyPress('z');
+        viewer.getEventQueue()->keyRelease('z');
+    }
     viewer.addEventHandler(new osgViewer::ScreenCaptureHandler);
     viewer.addEventHandler(new osgViewer::HelpHandler(&usage));
     const osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
@@ -76,10 +82,6 @@ osg::ref_ptr<viewer::SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, cons
     viewer.addEventHandler(new viewer::BinDisplayHandler);
     viewer.addEventHandler(new viewer::CoveredPictureHandler);
     viewer.addEventHandler(new viewer::MethodSwitchHandler(settings.cullOptions));
-    const osg::ref_ptr<viewer::PathRecorder> recorder =
-        new viewer::PathRecorder(settings.record.empty() ? "recorded.csv" : settings.record);
-    recorder->setRecording(!settings.record.empty());
-    viewer.addEventHandler(recorder);
     const osg::ref_ptr<viewer::SpyViewHandler> spy = new viewer::SpyViewHandler;
     viewer.addEventHandler(spy);
     return spy;

@@ -4,7 +4,7 @@
 // Camera paths as text, and the frames of a continuous flight. Oracle: values worked out by hand. The table
 // format itself is tested here too.
 
-#include "CameraPath.h"
+#include "PathFiles.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,6 @@ TEST(CameraPath, LeavesNearAndFarPlanesToOsg) {
     const std::string header = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg";
     const auto path = read(header + "\np,1,2,300,1,3,300,60\n");
     EXPECT_FALSE(path.front().hasPlanes());
-    EXPECT_EQ(textOf(path).substr(0, header.size() + 6), header + ",time,");
     expectError(header + ",far\np,1,2,300,1,3,300,60,9\n", "one is missing");
 }
 
@@ -148,6 +147,39 @@ CameraPose poseAt(double latDeg, double lonDeg, double altitude, double time = 0
     CameraPose pose{"p", {latDeg * kPi / 180.0, longitude, altitude}, {0.1, longitude, 0.0}, 1.0, 10.0, 1000.0};
     pose.time = time;
     return pose;
+}
+
+// Straight down, level and rolled, as a viewer of OSG records them; standing still, and between half seconds.
+TEST(PathFiles, AnAnimationPathShowsWhatWasRecorded) {
+    const Globe earth{new osg::EllipsoidModel, osg::Matrixd()};
+    const test::TemporaryFolder folder;
+    std::ostringstream text;
+    std::vector<osg::Matrixd> views;
+    text.precision(15);
+    for (const auto& [ahead, roll] : {std::pair(0.0, 0.0), {0.3, 0.4}, {0.3, -2.0}, {0.001, 3.0}}) {
+        CameraPose pose{"p", {0.5, 1.0, 5e4}, {0.5 + ahead, 1.0, 0.0}, 0.5};
+        pose.roll = roll;
+        views.push_back(viewMatrixOf(pose, earth));
+        const osg::Matrixd seen = osg::Matrixd::inverse(views.back());
+        const osg::Quat turn = seen.getRotate();
+        for (const double late : {0.0, 0.3, 0.6})
+            text << 10.0 + 2.0 * static_cast<double>(views.size()) + late << ' ' << seen.getTrans().x() << ' '
+                 << seen.getTrans().y() << ' ' << seen.getTrans().z() << ' ' << turn.x() << ' ' << turn.y() << ' '
+                 << turn.z() << ' ' << turn.w() << '\n';
+    }
+    const auto path = readCameraPathFiles({folder.write("my_flight 2.path", text.str())}, [&] { return earth; });
+    ASSERT_EQ(path.size(), views.size());
+    const osg::Vec3d ahead(100.0, 200.0, -1000.0);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_EQ(path[i].name, "my-flight-2_" + std::to_string(i + 1));
+        EXPECT_EQ(path[i].time, 12.0 + 2.0 * static_cast<double>(i));
+        EXPECT_FALSE(path[i].hasPlanes());
+        EXPECT_LT((ahead * osg::Matrixd::inverse(views[i]) * viewMatrixOf(path[i], earth) - ahead).length(), 0.01);
+    }
+    for (const char* const broken : {"", "1 2 3 4 5 six", "name,eyeLatDeg\n"}) {
+        const std::string file = folder.write("broken.path", broken);
+        EXPECT_NE(test::failureOf([&] { (void)readCameraPathFiles({file}); }).find("broken.path: "), std::string::npos);
+    }
 }
 
 TEST(ContinuousPath, ReachesThePosesAtTheirTimes) {

@@ -5,7 +5,6 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
-#include "CsvTable.h"
 #include "Handlers.h"
 #include "Traffic.h"
 #include "ViewTools.h"
@@ -21,13 +20,10 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/PolygonMode>
 #include <osgGA/StateSetManipulator>
-#include <osgGA/TerrainManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::viewer {
 namespace {
@@ -281,73 +277,6 @@ TEST_F(Handlers, ComeBackToWhatWasDrawnBefore) {
     EXPECT_EQ(differingBytes(*pictureBefore, *picture(_viewer)), 0u);
 }
 
-TEST_F(Handlers, RecordWhileTheCameraMoves) {
-    const std::string file = _folder / "path.csv";
-    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(file, 0.0);
-    _viewer.addEventHandler(recorder);
-    press('R');
-    EXPECT_EQ(recorder->path().size(), 1u);
-    look(_viewer, -1.0);
-    drawUntilIdle(_viewer);
-    EXPECT_EQ(recorder->path().size(), 2u);
-    press('R');
-    const std::string written = test::textOfFile(file);
-    EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 3);
-}
-
-TEST_F(Handlers, RecordFromTheFirstViewOfAManipulatorOn) {
-    osgViewer::Viewer viewer;
-    const osg::ref_ptr<osg::GraphicsContext> surface = test::makeSurface();
-    setUp(viewer, *surface, *read(Method::Quadratic));
-    const osg::ref_ptr<osgGA::TerrainManipulator> manipulator = new osgGA::TerrainManipulator;
-    const double altitude = 500e3;
-    manipulator->setHomePosition(osg::Vec3d(6378137.0 + altitude, 0.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0));
-    viewer.setCameraManipulator(manipulator);
-    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(_folder / "path.csv", 0.0);
-    recorder->setRecording(true);
-    viewer.addEventHandler(recorder);
-    for (int i = 0; i < 3; ++i) viewer.frame();
-    ASSERT_FALSE(recorder->path().empty());
-    EXPECT_NEAR(recorder->path().front().eye.altitude, altitude, 1.0);
-}
-
-TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {
-    const std::string file = _folder / "path.csv";
-    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(file, 0.0);
-    std::vector<TileCounts> shown;
-    for (const double side : {1.0, -1.0, 0.3}) {
-        look(_viewer, side);
-        drawUntilIdle(_viewer);
-        shown.push_back(counts(_viewer));
-        if (side == 1.0) _viewer.addEventHandler(recorder);
-        recorder->setRecording(true);
-        _viewer.frame();
-        _viewer.frame();
-        recorder->setRecording(false);
-    }
-    const std::string table = _folder / "poses.csv";
-    const std::vector<std::string> words{BENCH_FILE,  _file, "--path",  file, "--methods", "quadratic+horizon+edges",
-                                         "--repeats", "1",   "--flush", "0",  "--size",    "128x128",
-                                         "--csv",     table};
-    const test::Outcome bench = test::runStock(test::quoted(words), test::Modules::Absent,
-                                               "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
-    ASSERT_EQ(bench.code, 0) << bench.text;
-    std::ifstream input(table);
-    const auto figures = flight::readCsv(input, table);
-    std::vector<TileCounts> played;
-    for (const auto& row : figures.rows) {
-        const auto cell = [&](const char* name) { return row.cells.at(figures.column(name).value()); };
-        if (cell("method") == "none") continue;
-        const auto count = [&](const char* name) { return std::stoul(cell(name)); };
-        played.push_back({count("tested_tiles"), count("kept_tiles"), count("drawn_tiles")});
-    }
-    ASSERT_EQ(played.size(), shown.size());
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        EXPECT_GT(shown[i].drawn, 0u);
-        expectSameCounts(played[i], shown[i], std::to_string(i));
-    }
-}
-
 TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
     const auto bindingsOf = [](const std::vector<osg::ref_ptr<osgGA::GUIEventHandler>>& handlers) {
         const osg::ref_ptr<osg::ApplicationUsage> usage = new osg::ApplicationUsage;
@@ -358,9 +287,8 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
         {_stats.get(), new osgViewer::HelpHandler, new osgViewer::WindowSizeHandler, new osgViewer::ThreadingHandler,
          new osgViewer::LODScaleHandler, new osgViewer::RecordCameraPathHandler, new osgViewer::ScreenCaptureHandler,
          new osgViewer::ToggleSyncToVBlankHandler, new osgGA::StateSetManipulator(new osg::StateSet)});
-    const auto ours = bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new CoveredPictureHandler,
-                                  new PathRecorder("none.csv")});
-    EXPECT_EQ(ours.size(), 8u);
+    const auto ours = bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new CoveredPictureHandler});
+    EXPECT_EQ(ours.size(), 7u);
     EXPECT_GT(osgs.size(), 14u);
     for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key.substr(1)), 0u) << key << ": " << text;
     EXPECT_LT(ours.rbegin()->first, osgs.begin()->first) << "first in the help";
