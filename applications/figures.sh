@@ -99,7 +99,9 @@ fi
 
 step "Scale"
 "$build/bin/osgbinbench" scale --levels 4,8,12,16,20,24 --rounds 6 --csv "$out/scale.csv" --json "$out/scale.json" \
-    --plot "$out/scale" >"$out/scale.txt"
+    >"$out/scale.txt"
+mkdir -p "$out/scale"
+gnuplot -e "csv='$out/scale.csv'; folder='$out/scale'" applications/scale.gp
 
 step "Machine"
 {

@@ -7,7 +7,6 @@
 #include "CommandLine.h"
 #include "CullMethod.h"
 #include "CullTimer.h"
-#include "Diagram.h"
 #include "ModuleFolder.h"
 #include "Nodes.h"
 #include "Quantiles.h"
@@ -42,7 +41,6 @@ using bench::CullMethod;
 using bench::FileWatch;
 using bench::MethodScene;
 using flight::CameraPose;
-using report::Diagram;
 using report::Json;
 using namespace support;
 using Scenes = std::vector<std::unique_ptr<MethodScene>>;
@@ -60,7 +58,6 @@ struct Settings {
     int rounds = 15;
     std::string csv;
     std::string json;
-    std::string plot;
 
     /// The oracle repeats what bins keep. Throws: Failure for an unknown name.
     [[nodiscard]] std::vector<CullMethod> methods() const {
@@ -229,27 +226,6 @@ void addTimes(const Scenes& scenes, int rounds, Rows& rows) {
             rows[i][column] = rows[i].value(column, 0.0) + ms;
 }
 
-Diagram diagramOf(const std::string& name, const std::string& commands, const std::vector<Json>& rows) {
-    const std::string common = "set datafile separator ','\nset key bottom right\nset grid\nset yrange [0:*]\n";
-    return {name, report::csvOf(rows), report::drawnTwice(name, "size 800,500 noenhanced", common + commands)};
-}
-
-// A line for each method, through the points of its rows; each method has a column.
-Diagram lines(const std::string& name, const std::string& commands, const Rows& rows, const char* x, const char* y) {
-    std::vector<Json> points;
-    for (const Json& row : rows) {
-        auto point = std::find_if(points.begin(), points.end(), [&](const Json& p) { return p["x"] == row[x]; });
-        if (point == points.end()) point = points.insert(points.end(), Json{{"x", row[x]}});
-        (*point)[row["method"].get<std::string>()] = row[y];
-    }
-    std::size_t columns = 1;
-    for (const Json& point : points) columns = std::max(columns, point.size());
-    return diagramOf(name,
-                     commands + "plot for [i=2:" + std::to_string(columns) +
-                         "] name.'.csv' using 1:i with linespoints title columnhead(i)\n",
-                     points);
-}
-
 /// Each method on flights down globes of several depths; sums over the poses. Throws: Failure.
 Rows measureDepth(const Settings& settings, FileWatch& watch) {
     Scenes scenes;
@@ -330,44 +306,6 @@ Rows measureMemory(const Settings& settings, FileWatch& watch) {
     return rows;
 }
 
-/// Depth (time for each drawn tile), flight (time of the whole flight), residents and memory; of a series without rows
-/// none.
-std::vector<Diagram> diagramsOf(const Rows& depth, const Rows& residents, const Rows& memory) {
-    std::vector<Diagram> diagrams;
-    if (!depth.empty()) {
-        const std::string levels = "set xlabel 'levels below the start tiles'\n";
-        diagrams.push_back(lines("depth",
-                                 levels + "set title 'Cull time for each drawn tile'\nset ylabel 'microseconds'\n",
-                                 depth, "levels", "cull_us_per_drawn_tile"));
-        diagrams.push_back(
-            lines("flight",
-                  levels + "set title 'Cull time of the flight'\nset ylabel 'milliseconds, one frame at each pose'\n",
-                  depth, "levels", "cull_ms"));
-    }
-    if (!residents.empty())
-        diagrams.push_back(lines("residents", R"(set title 'Cull time of one view'
-set xlabel 'PagedLODs in memory (logarithmic)'
-set logscale x
-set rmargin 6
-set ylabel 'milliseconds'
-)",
-                                 residents, "paged_lods", "cull_ms"));
-    std::vector<Json> bars;
-    for (const Json& row : memory)
-        bars.push_back({{"method", row["method"]}, {"KiB", row["bytes_per_tile"].get<double>() / 1024.0}});
-    if (!bars.empty())
-        diagrams.push_back(diagramOf("memory", R"(set title 'Memory of a tile'
-set ylabel 'KiB'
-set style fill solid 0.6
-set boxwidth 0.6
-unset key
-set xtics rotate by 20 right
-plot name.'.csv' skip 1 using 0:2:xtic(1) with boxes
-)",
-                                     bars));
-    return diagrams;
-}
-
 constexpr const char* kFooter =
     "Everything is measured on procedural globes (NUMBER.proceduralglobe), without files and without a display; what "
     "is\n"
@@ -385,7 +323,7 @@ constexpr const char* kFooter =
     "keep.\n"
     "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
     "Example:\n"
-    "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
+    "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json";
 
 void declare(CLI::App& app, Settings& settings) {
     app.add_option("--series", settings.series, "comma-separated: depth, residents, memory (default: all)")
@@ -411,8 +349,6 @@ void declare(CLI::App& app, Settings& settings) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--csv", settings.csv, "file for the figures, a line for each method and measurement");
     app.add_option("--json", settings.json, "file for the figures");
-    app.add_option("--plot", settings.plot,
-                   "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
 }
 
 void check(const Settings& settings) {
@@ -424,7 +360,6 @@ void check(const Settings& settings) {
         throw UsageError("--cells: " + std::to_string(settings.cells) + " is odd; give an even number");
     support::requireFolderOf("--csv", settings.csv);
     support::requireFolderOf("--json", settings.json);
-    if (!settings.plot.empty()) support::makeFolder(settings.plot);
 }
 
 // A line for each row of all series.
@@ -455,7 +390,6 @@ void measure(const Settings& settings) {
     json.update(lists);
     if (!settings.csv.empty()) support::writeFile(settings.csv, csvOf(lists));
     if (!settings.json.empty()) support::writeFile(settings.json, json.dump(2) + "\n");
-    if (!settings.plot.empty()) report::plot(settings.plot, diagramsOf(depth, residents, memory));
     for (const auto& list : lists.items()) {
         if (list.value().empty()) continue;
         report::TextTable table(2);

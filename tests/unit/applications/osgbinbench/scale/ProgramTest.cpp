@@ -12,8 +12,6 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
 #include <support/FailureText.h>
 
 namespace osgAnalyticBin {
@@ -93,22 +91,6 @@ TEST_F(ScaleProgram, WritesWhatItMeasured) {
     const std::string csv = test::textOfFile(folder / "scale.csv");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
     EXPECT_EQ(csv.find("series,levels,method,tested_tiles"), 0U);
-}
-
-TEST_F(ScaleProgram, DrawsFigures) {
-    if (!std::filesystem::exists("/usr/bin/gnuplot")) GTEST_SKIP() << "needs gnuplot";
-    const Outcome outcome = run({"--series", "depth", "--levels", "1,2", "--poses", "2", "--cells", "2", "--rounds",
-                                 "1", "--plot", folder.path()});
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    std::set<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        files.insert(entry.path().filename().string());
-        const bool isPicture = entry.path().extension() == ".png" || entry.path().extension() == ".svg";
-        EXPECT_GT(entry.file_size(), isPicture ? 1000U : 10U);
-    }
-    EXPECT_EQ(files, (std::set<std::string>{"depth.csv", "depth.gp", "depth.png", "depth.svg", "flight.csv",
-                                            "flight.gp", "flight.png", "flight.svg"}));
-    EXPECT_EQ(test::textOfFile(folder / "depth.csv").find("x,sphere,bins,oracle"), 0U);
 }
 
 TEST_F(ScaleProgram, SaysInOneLineWhatIsWrong) {
