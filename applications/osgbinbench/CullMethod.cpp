@@ -65,8 +65,12 @@ CullMethod binMethod(const std::string& name) {
     if (!isBin && !kArePeersBuilt)
         throw UsageError("--methods: \"" + name + "\" is for comparison; build with OSGANALYTICBIN_RESEARCH=ON");
     CullMethod method;
-    if (!isBin) method.loader = "binrival";
-    method.before = "method=" + base + ",index=on" + (usesHorizon ? ",horizon=declared" : "");
+    if (!isBin) {
+        method.rule = base;
+        method.ruleUsesHorizon = usesHorizon;
+        method.ruleTestsEdges = usesEdges;
+    }
+    method.before = (isBin ? "method=" + base + "," : "") + "index=on" + (usesHorizon ? ",horizon=declared" : "");
     method.after = std::string(usesHorizon ? "" : ",horizon=off") + (usesEdges ? ",edges=on" : ",edges=off") +
                    (usesOcclusion ? ",occlusion=on" : ",occlusion=off");
     return method;
@@ -76,7 +80,7 @@ CullMethod binMethod(const std::string& name) {
 
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     const std::string options = usesBins && !binOptions.empty() ? "," + binOptions : std::string();
-    return database + ".(" + before + options + after + ")." + loader;
+    return database + ".(" + before + options + after + ").analyticbin";
 }
 
 CullMethod cullMethodFromName(const std::string& name) {

@@ -14,8 +14,9 @@ namespace osgAnalyticBin::bench {
 /// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
-    /// Of the pseudo-loader: analyticbin, or binrival (research/rivals) for another's rule.
-    std::string loader = "analyticbin";
+    /// Another's rule that culls in place of the bins: RivalOptions (research/rivals). Empty: none.
+    std::string rule;
+    bool ruleUsesHorizon = false, ruleTestsEdges = false;
     /// What the pseudo-loader is told before and after the user's options; the last item of a key counts.
     std::string before, after;
     bool usesBins = true;  ///< whether the user's options count

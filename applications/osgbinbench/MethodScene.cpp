@@ -6,6 +6,9 @@
 #include "CsvTable.h"
 #include "Failure.h"
 #include "Nodes.h"
+#ifdef OSGANALYTICBIN_RESEARCH
+#include "Rivals.h"
+#endif
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
@@ -96,6 +99,11 @@ void MethodScene::load() {
     _camera->removeChildren(0, _camera->getNumChildren());
     treatFiles(nullptr);
     const osg::ref_ptr<osg::Node> root = read();
+#ifdef OSGANALYTICBIN_RESEARCH
+    if (!_method.rule.empty())
+        rivals::installRivals(*root,
+                              {rivals::ruleNamed(_method.rule), _method.ruleUsesHorizon, _method.ruleTestsEdges});
+#endif
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);

@@ -14,6 +14,8 @@
 #include <osg/NodeCallback>
 #include <osg/Polytope>
 
+#include <map>
+
 namespace osgAnalyticBin::rivals {
 
 namespace {
@@ -230,6 +232,12 @@ public:
 };
 
 }  // namespace
+
+Rule ruleNamed(const std::string& name) {
+    static const std::map<std::string, Rule> rules{
+        {"paper", Rule::Paper}, {"corners", Rule::Corners}, {"box", Rule::Box}, {"orientedbox", Rule::OrientedBox}};
+    return rules.at(name);
+}
 
 std::size_t installRivals(osg::Node& root, const RivalOptions& options) {
     const osg::ref_ptr<TileByTile> tileByTile = new TileByTile;

@@ -30,12 +30,14 @@ enum class Rule {
     OrientedBox  ///< the bin's box along east, north and up, and a horizon point: sound
 };
 
+/// Of "paper", "corners", "box" and "orientedbox", one of which is required.
+[[nodiscard]] Rule ruleNamed(const std::string& name);
+
 /// How a rule culls.
 struct RivalOptions {
     Rule rule = Rule::Paper;
     bool usesHorizon = false;  ///< of the lowest surface shown, as the kit finds it
     bool testsEdges = false;   ///< also against edges of the frustum; boxes: by their faces
-    std::string binOptions;    ///< those for the kit, which finds the tiles and their bins
 };
 
 /// Culls a tile by one of the rules in place of the kit's own callback, which is nested in it and not run: it says what

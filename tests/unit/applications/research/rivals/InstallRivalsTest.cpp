@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Databases that are culled by the rules of the paper and of other programs: that the plugin puts them on all tiles.
+// Databases that are culled by the rules of the paper and of other programs: that all tiles have them.
 // The rules themselves: RivalBinsTest.cpp; what they draw: osgbinbench.Program.JudgesEveryMethodByTheReference.
 
 #include "PagedFlight.h"
@@ -11,7 +11,6 @@
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 
-#include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <support/VisitNodes.h>
@@ -21,11 +20,12 @@ namespace {
 
 using rivals::RivalCullCallback;
 
-TEST(RivalPlugin, CullsAlsoWhatIsPagedIn) {
+TEST(Rivals, CullsAlsoWhatIsPagedIn) {
     const test::TemporaryFolder folder;
     const std::string file = test::writeSyntheticDatabase(folder.path());
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file + ".(method=corners).binrival");
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file + ".(occlusion=off).analyticbin");
     ASSERT_TRUE(scene);
+    EXPECT_EQ(rivals::installRivals(*scene, {rivals::Rule::Corners}), 32U);
     test::PagedFlight flight(*scene);
     ASSERT_TRUE(flight.load(test::lookDown(1.0)));
     std::size_t tiles = 0, byRule = 0;
@@ -36,16 +36,6 @@ TEST(RivalPlugin, CullsAlsoWhatIsPagedIn) {
     });
     EXPECT_EQ(byRule, tiles);
     EXPECT_GT(tiles, 40U) << "32 are in the root file";
-}
-
-TEST(RivalPlugin, RefusesWhatItDoesNotKnow) {
-    const test::CapturedNotes notes;
-    const test::TemporaryFolder folder;
-    const std::string file = test::writeSyntheticDatabase(folder.path());
-    EXPECT_TRUE(osgDB::readRefNodeFile(file + ".(method=box,horizon=-20000).binrival"));
-    for (const char* suffix : {".(method=exact).binrival", ".(growth=0).binrival", ".(speed=9).binrival"})
-        EXPECT_FALSE(osgDB::readRefNodeFile(file + suffix)) << suffix;
-    EXPECT_FALSE(osgDB::readRefNodeFile(folder / "absent.osgb.(method=box).binrival"));
 }
 
 }  // namespace
