@@ -26,6 +26,10 @@ using report::Json;
 using report::TextTable;
 
 constexpr std::array<const char*, 2> kComparedWith{"sphere", "cluster"};
+// What tables by path have of the figures.
+constexpr std::array<const char*, 12> kByPath{"truth_tiles",     "drawn_tiles",   "drawn/truth", "triangles",
+                                              "files_requested", "false_culls",   "frame_ms",    "differing_pixels",
+                                              kCullColumn,       kCullColdColumn, "over_oracle", "cold_over_oracle"};
 
 Json headOf(const Settings& settings, const char* mode) {
     Json json;
@@ -85,27 +89,19 @@ void addRatios(std::vector<TextTable>& tables, const Json& methods) {
 }
 
 TextTable tableByPath(const std::vector<PathGroup>& groups, const std::vector<MethodFigures>& methods) {
-    std::vector<std::string> columns{"truth_tiles",      "drawn_tiles",     "drawn/truth",
-                                     "triangles",        "files_requested", "false_culls",
-                                     "differing_pixels", kCullColumn,       kCullColdColumn};
-    Json first = sumsOf(methods, allOf(methods.front()));
-    addTimesOverOracle(first);
-    for (const char* const title : {"over_oracle", "cold_over_oracle"})
-        if (first.front().contains(title)) columns.emplace_back(title);
     TextTable table(2);
-    std::vector<std::string> head{"sums by path", "method"};
-    head.insert(head.end(), columns.begin(), columns.end());
-    table.add(std::move(head));
     for (const PathGroup& group : groups) {
-        table.addGap();
+        if (&group != &groups.front()) table.addGap();
         Json sums = sumsOf(methods, group);
         addTimesOverOracle(sums);
         for (auto& [method, figures] : sums.items()) {
-            figures["drawn/truth"] =
-                report::ratioText(figures["drawn_tiles"].get<double>(), figures["truth_tiles"].get<double>());
-            std::vector<std::string> cells{group.name, method};
-            for (const std::string& column : columns) cells.push_back(cellText(figures[column], 3));
-            table.add(std::move(cells));
+            if (figures.contains("truth_tiles"))
+                figures["drawn/truth"] =
+                    report::ratioText(figures["drawn_tiles"].get<double>(), figures["truth_tiles"].get<double>());
+            Json row{{"sums by path", group.name}, {"method", method}};
+            for (const char* const column : kByPath)
+                if (figures.contains(column)) row[column] = figures[column];
+            table.addRow(row, 3);
         }
     }
     return table;

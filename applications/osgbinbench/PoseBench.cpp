@@ -219,7 +219,7 @@ private:
                                                                {"files_requested", visits[i].files},
                                                                {"bytes", visits[i].bytes}});
             addFalseVerdicts(row, census, needed, visible);
-            row["differing_pixels"] = report::compare(*reference.picture, *visits[i].picture).pixels;
+            row["differing_pixels"] = report::differingPixels(*reference.picture, *visits[i].picture);
             row[kCullColumn] = times[i].warm.median;
             row["cull_spread_ms"] = times[i].warm.spread;
             row[kCullColdColumn] = times[i].cold.median;

@@ -113,8 +113,7 @@ ExitCode run(int argc, char** argv) {
 int main(int argc, char** argv) {
     using osgAnalyticBin::support::runProgram;
     const std::string command = argc > 1 ? argv[1] : "";
-    if (command == "report")
-        return runProgram("osgbinbench report", [&] { return osgAnalyticBin::report::run(argc - 1, argv + 1); });
+    if (command == "report") return runProgram("osgbinbench report", [&] { return runReport(argc - 1, argv + 1); });
     if (command == "scale")
         return runProgram("osgbinbench scale", [&] { return osgAnalyticBin::scale::run(argc - 1, argv + 1); });
     return runProgram("osgbinbench", [&] { return run(argc, argv); });

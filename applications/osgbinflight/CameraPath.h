@@ -13,8 +13,8 @@ namespace osgAnalyticBin::flight {
 
 /// One stop of a camera path. Radians and metres.
 struct CameraPose {
-    std::string name;    ///< letters, digits, `_` and `-`: it names the picture's file too
-    core::Geodetic eye;  ///< where the camera stands
+    std::string name;          ///< letters, digits, `_` and `-`: it names the picture's file too
+    core::Geodetic eye;        ///< where the camera stands
     core::Geodetic look;       ///< a point on the line of sight
     double verticalFov = 0.0;  ///< the whole angle
     double nearPlane = 0.0;    ///< from the eye along the line of sight; 0: OSG computes near and far planes

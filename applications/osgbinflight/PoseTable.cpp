@@ -19,21 +19,17 @@ struct CountColumn {
     std::uint64_t TileCounts::*count;
 };
 
-constexpr std::array<CountColumn, 9> kCounts{{{"tilesTested", &TileCounts::tested},
-                                              {"tilesKept", &TileCounts::kept},
-                                              {"tilesDrawn", &TileCounts::drawn},
+constexpr std::array<CountColumn, 5> kCounts{{{"tested_tiles", &TileCounts::tested},
+                                              {"kept_tiles", &TileCounts::kept},
+                                              {"drawn_tiles", &TileCounts::drawn},
                                               {"drawables", &TileCounts::drawables},
-                                              {"triangles", &TileCounts::triangles},
-                                              {"binsTested", &TileCounts::binsTested},
-                                              {"binsOutside", &TileCounts::binsOutside},
-                                              {"binsInside", &TileCounts::binsInside},
-                                              {"binsStraddling", &TileCounts::binsStraddling}}};
+                                              {"triangles", &TileCounts::triangles}}};
 
 std::string textOf(const std::vector<PoseRecord>& records, const std::string& remark) {
     std::ostringstream output;
     output << "# " << remark << "\nname";
     for (const CountColumn& column : kCounts) output << ',' << column.name;
-    output << ",files,cullMs,frameMs,picture\n";
+    output << ",files_requested,cull_ms,frame_ms,picture\n";
     for (const PoseRecord& record : records) {
         output << record.name;
         for (const CountColumn& column : kCounts) output << ',' << record.tiles.*column.count;

@@ -17,12 +17,6 @@ struct TileCounts {
     std::uint64_t drawables = 0;  ///< drawables in the render bins
     std::uint64_t triangles = 0;  ///< triangles of those
     std::uint64_t wanted = 0;     ///< files that PagedLODs asked for: not loaded yet
-
-    // The bins' own counters; zero without bins.
-    std::uint64_t binsTested = 0;
-    std::uint64_t binsOutside = 0;
-    std::uint64_t binsInside = 0;
-    std::uint64_t binsStraddling = 0;
 };
 
 /// One line of poses.csv: what was measured at one pose.

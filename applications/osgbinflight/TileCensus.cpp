@@ -6,7 +6,6 @@
 #include "Nodes.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/PagedLOD>
 #include <osg/Transform>
@@ -83,13 +82,6 @@ Census TileCensus::take(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     Census& found = census->_census;
     found.wanted = census->wanted();
     found.drawn = found.tiles.size();
-    if (const BinStatistics* const statistics = BinStatistics::find(*census)) {
-        const BinCounts bins = statistics->getCounts();
-        found.binsTested = bins.tested;
-        found.binsOutside = bins.outside;
-        found.binsInside = bins.inside;
-        found.binsStraddling = bins.straddling;
-    }
     return std::move(found);
 }
 

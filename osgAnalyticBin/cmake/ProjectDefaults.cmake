@@ -89,8 +89,6 @@ function(osganalyticbin_osg_module target)
     ${target} PROPERTIES PREFIX "${_prefix}"
                          LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                          INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/..")
-  if(NOT "NOT_INSTALLED" IN_LIST ARGN)
-    install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
-                                      COMPONENT plugins)
-  endif()
+  install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+                                    COMPONENT plugins)
 endfunction()

@@ -65,8 +65,7 @@ protected:
     static void expectEqualPictures(const std::vector<std::string>& flights) {
         std::vector<std::string> folders{truth};
         folders.insert(folders.end(), flights.begin(), flights.end());
-        for (const report::Mismatch& mismatch : mismatchesOf(report::readFlights(folders, "")))
-            ADD_FAILURE() << mismatch.label << " at " << mismatch.pose << ": " << mismatch.pixels << " pixels";
+        for (const std::string& mismatch : bench::mismatchesOf(bench::readFlights(folders))) ADD_FAILURE() << mismatch;
     }
 
     static Sent sentBy(const Nginx& nginx) {

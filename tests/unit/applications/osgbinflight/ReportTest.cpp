@@ -3,13 +3,12 @@
 //
 // `osgbinbench report` over made-up flights: the parts here, the program's exit codes at the end.
 
-#include "PictureDifference.h"
+#include "Output.h"
 #include "PoseTable.h"
 #include "Report.h"
 
 #include <gtest/gtest.h>
 #include <osg/Image>
-#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
 #include <cstdlib>
@@ -19,7 +18,7 @@
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>
 
-namespace osgAnalyticBin::report {
+namespace osgAnalyticBin::bench {
 namespace {
 
 using test::TemporaryFolder;
@@ -27,9 +26,9 @@ using test::TemporaryFolder;
 constexpr int kWidth = 8;
 constexpr int kHeight = 4;
 
-osg::ref_ptr<osg::Image> greyPicture(int width = kWidth) {
+osg::ref_ptr<osg::Image> greyPicture() {
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(width, kHeight, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+    image->allocateImage(kWidth, kHeight, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
     std::fill_n(image->data(), image->getTotalSizeInBytes(), static_cast<unsigned char>(90));
     return image;
 }
@@ -61,36 +60,22 @@ int exitCodeOf(const std::string& arguments) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(PictureDifference, FindsASingleChangedChannelAndRefusesOtherSizes) {
-    const PictureDifference difference = compare(*greyPicture(), *pictureWithOneOtherPixel());
-    EXPECT_EQ(difference.pixels, 1u);
-    EXPECT_EQ(difference.picture->data(3, 2)[0], 255);
-    EXPECT_EQ(difference.picture->data(2, 2)[0], 30);
-    const std::string error = test::failureOf([] { (void)compare(*greyPicture(), *greyPicture(kWidth + 1)); });
-    EXPECT_NE(error.find("8x4 and 9x4"), std::string::npos) << error;
-}
-
 TEST(Report, NamesThePoseThatDiffersAndPrintsSumsAndRatios) {
     const TemporaryFolder folder;
-    const std::vector<Flight> flights =
+    const Measurement flown =
         readFlights({makeRun(folder, "none", 10, *greyPicture()), makeRun(folder, "sphere", 4, *greyPicture()),
                      makeRun(folder, "quadratic", 1, *pictureWithOneOtherPixel()),
-                     makeRun(folder, "paper", 4, *pictureWithOneOtherPixel())},
-                    folder / "differences");
-    const std::vector<Mismatch> mismatches = mismatchesOf(flights);
-    ASSERT_EQ(mismatches.size(), 1u) << "the published rule is known to be unsound";
-    EXPECT_EQ(mismatches.front().pose, "far_2");
-    EXPECT_EQ(mismatches.front().label, "quadratic");
-    EXPECT_EQ(mismatches.front().pixels, 1.0);
-    EXPECT_EQ(flights.back().figures.rows[0][kPixelsColumn], 0.0);
-    EXPECT_EQ(flights.back().figures.rows[1][kPixelsColumn], 1.0);
-    EXPECT_TRUE(std::filesystem::exists(folder / "differences/quadratic_far_2.png"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "differences/quadratic_far_1.png"));
-    EXPECT_EQ(sumOf(flights[2].figures)["tilesDrawn"], 2.0);
-    EXPECT_EQ(sumOf(flights[2].figures)["cullMs"], 3.0);
+                     makeRun(folder, "paper", 4, *pictureWithOneOtherPixel())});
+    // the published rule is known to be unsound
+    EXPECT_EQ(mismatchesOf(flown), std::vector<std::string>{"method quadratic draws another picture than the reference "
+                                                            "at pose far_2: 1 pixels differ"});
+    EXPECT_EQ(flown.methods[3].rows[1]["differing_pixels"], 1);
+    EXPECT_EQ(sumOf(flown.methods[2])["drawn_tiles"], 2);
+    EXPECT_EQ(sumOf(flown.methods[2])["cull_ms"], 3.0);
     std::ostringstream text;
-    print(text, flights);
-    for (const char* part : {"sum of far_*", "sum of all poses", "quadratic / sphere   0.250  0.250  0.250"})
+    print(text, tablesOf(flown));
+    for (const char* part :
+         {"sums over poses", "ratio to sphere", "kept_tiles          2.500   1.000      0.250  1.000"})
         EXPECT_NE(text.str().find(part), std::string::npos) << text.str();
 }
 
@@ -99,7 +84,7 @@ TEST(Report, NamesWhatIsMissingOrBroken) {
     const std::string none = makeRun(folder, "none", 1, *greyPicture());
     const std::string sphere = makeRun(folder, "sphere", 1, *greyPicture());
     const auto expectError = [&](const std::string& run, const std::string& what) {
-        const std::string error = test::failureOf([&] { (void)readFlights({none, run}, ""); });
+        const std::string error = test::failureOf([&] { (void)readFlights({none, run}); });
         EXPECT_NE(error.find(what), std::string::npos) << error;
     };
     expectError(folder / "gone", "gone/poses.csv");
@@ -108,14 +93,19 @@ TEST(Report, NamesWhatIsMissingOrBroken) {
         std::string text = good;
         text.replace(text.find(",1,") + 1, 1, bad);
         (void)folder.write("sphere/poses.csv", text);
-        expectError(sphere, "poses.csv:3: tilesTested");
+        expectError(sphere, "poses.csv:3: tested_tiles");
     }
     (void)folder.write("sphere/poses.csv", good.substr(0, good.find("far_2")));
     expectError(sphere, "its poses are not those");
-    (void)folder.write("sphere/poses.csv", "name,tilesTested,picture\nfar_1,1,far_1.png\nfar_2,1,far_2.png\n");
-    expectError(sphere, "a column is missing");
+    (void)folder.write("sphere/poses.csv", "name,tested_tiles,picture\nfar_1,1,far_1.png\nfar_2,1,far_2.png\n");
+    expectError(sphere, "its columns are not those");
     (void)folder.write("sphere/poses.csv", good);
-    std::filesystem::remove(sphere + "/far_2.png");
+    const std::string picture = sphere + "/far_2.png";
+    const osg::ref_ptr<osg::Image> wider = greyPicture();
+    wider->scaleImage(kWidth + 1, kHeight, 1);
+    ASSERT_TRUE(osgDB::writeImageFile(*wider, picture));
+    expectError(sphere, "8x4 and 9x4");
+    std::filesystem::remove(picture);
     expectError(sphere, "sphere/far_2.png");
 }
 
@@ -131,4 +121,4 @@ TEST(ReportProgram, SaysByItsExitCodeWhatItFound) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin::report
+}  // namespace osgAnalyticBin::bench

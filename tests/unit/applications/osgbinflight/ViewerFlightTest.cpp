@@ -17,9 +17,8 @@
 namespace osgAnalyticBin {
 namespace {
 
-using report::Flight;
-using report::readFlights;
-using report::sumOf;
+using bench::Measurement;
+using bench::readFlights;
 using test::TemporaryFolder;
 
 constexpr const char* kPath =
@@ -62,61 +61,52 @@ protected:
     std::string lastLog;
 };
 
-void expectEqualPictures(const std::vector<Flight>& flights) {
-    for (const report::Mismatch& mismatch : mismatchesOf(flights))
-        ADD_FAILURE() << mismatch.label << " at " << mismatch.pose << ": " << mismatch.pixels << " pixels";
+void expectEqualPictures(const Measurement& flown) {
+    for (const std::string& mismatch : mismatchesOf(flown)) ADD_FAILURE() << mismatch;
+}
+
+std::uint64_t sumOf(const Measurement& flown, std::size_t method, const char* column) {
+    return report::sumOf(flown.methods[method])[column].get<std::uint64_t>();
 }
 
 // What does not depend on how well a method culls.
-void expectPlausible(const Flight& run) {
-    for (std::size_t i = 0; i < run.poses.size(); ++i) {
-        const auto at = [&](const char* column) { return run.figures.rows[i][column].get<double>(); };
-        EXPECT_GE(at("tilesTested"), 32.0) << run.poses[i];
-        EXPECT_GE(at("tilesTested"), at("tilesKept")) << run.poses[i];
-        EXPECT_GE(at("tilesKept"), at("tilesDrawn")) << run.poses[i];
-        EXPECT_GT(at("tilesDrawn"), 0.0) << run.poses[i];
-        EXPECT_EQ(at("drawables"), at("tilesDrawn")) << run.poses[i];
-        EXPECT_EQ(at("triangles"), at("tilesDrawn") * 512.0) << run.poses[i];
-        EXPECT_GT(at("cullMs"), 0.0) << run.poses[i];
-        EXPECT_GT(at("frameMs"), at("cullMs")) << run.poses[i];
+void expectPlausible(const bench::MethodFigures& flown) {
+    for (const report::Json& row : flown.rows) {
+        const auto at = [&](const char* column) { return row[column].get<double>(); };
+        EXPECT_GE(at("tested_tiles"), 32.0) << row;
+        EXPECT_GE(at("tested_tiles"), at("kept_tiles")) << row;
+        EXPECT_GE(at("kept_tiles"), at("drawn_tiles")) << row;
+        EXPECT_GT(at("drawn_tiles"), 0.0) << row;
+        EXPECT_EQ(at("drawables"), at("drawn_tiles")) << row;
+        EXPECT_EQ(at("triangles"), at("drawn_tiles") * 512.0) << row;
+        EXPECT_GT(at("cull_ms"), 0.0) << row;
+        EXPECT_GT(at("frame_ms"), at("cull_ms")) << row;
     }
-}
-
-// The census is a visitor of its own class, for which OSG's spheres cull before bins are asked: whatever they leave is
-// tested by its bin.
-void expectTestedByBins(const Flight& run) {
-    EXPECT_LE(sumOf(run.figures)["binsTested"], sumOf(run.figures)["tilesTested"]);
-    EXPECT_GE(sumOf(run.figures)["binsTested"], sumOf(run.figures)["tilesKept"]);
 }
 
 TEST_F(ViewerFlight, EveryMethodAndThreadingModelDrawsTheSamePictures) {
-    const std::vector<Flight> flown = readFlights(
+    const Measurement flown = readFlights(
         {fly("none"), fly("sphere"), fly("quadratic"), fly("quadratic", "CullDrawThreadPerContext"),
-         fly("quadratic", "DrawThreadPerContext"), fly("quadratic", "CullThreadPerCameraDrawThreadPerContext")},
-        "");
+         fly("quadratic", "DrawThreadPerContext"), fly("quadratic", "CullThreadPerCameraDrawThreadPerContext")});
     expectEqualPictures(flown);
-    for (std::size_t i = 0; i < flown.size(); ++i) {
-        ASSERT_EQ(flown[i].poses.size(), kPoses);
-        if (i < 3) expectPlausible(flown[i]);
+    ASSERT_EQ(flown.poses.size(), kPoses);
+    for (std::size_t i = 0; i < flown.methods.size(); ++i) {
+        if (i < 3) expectPlausible(flown.methods[i]);
         for (std::size_t pose = 0; i > 2 && pose < kPoses; ++pose)
-            EXPECT_EQ(flown[i].figures.rows[pose]["tilesDrawn"], flown[2].figures.rows[pose]["tilesDrawn"]) << i;
+            EXPECT_EQ(flown.methods[i].rows[pose]["drawn_tiles"], flown.methods[2].rows[pose]["drawn_tiles"]) << i;
     }
-    auto none = sumOf(flown[0].figures), sphere = sumOf(flown[1].figures), quadratic = sumOf(flown[2].figures);
-    EXPECT_EQ(none["tilesTested"], none["tilesKept"]);
-    EXPECT_GT(none["tilesDrawn"], sphere["tilesDrawn"]);
-    EXPECT_GT(sphere["tilesKept"], quadratic["tilesKept"]);
-    EXPECT_GE(none["files"], quadratic["files"]);
-    EXPECT_GT(quadratic["files"], 0.0);
-    expectTestedByBins(flown[2]);
-    EXPECT_EQ(sphere["binsTested"], 0.0);
+    EXPECT_EQ(sumOf(flown, 0, "tested_tiles"), sumOf(flown, 0, "kept_tiles"));
+    EXPECT_GT(sumOf(flown, 0, "drawn_tiles"), sumOf(flown, 1, "drawn_tiles"));
+    EXPECT_GT(sumOf(flown, 1, "kept_tiles"), sumOf(flown, 2, "kept_tiles"));
+    EXPECT_GE(sumOf(flown, 0, "files_requested"), sumOf(flown, 2, "files_requested"));
+    EXPECT_GT(sumOf(flown, 2, "files_requested"), 0U);
 }
 
 TEST_F(ViewerFlight, AStoredDatabaseNeedsNothingButTheModules) {
     const std::string plain = flyOver(database, "plain", "SingleThreaded", "frames=1");
-    const std::vector<Flight> flown = readFlights({fly("none"), plain}, "");
+    const Measurement flown = readFlights({fly("none"), fly("sphere"), plain});
     expectEqualPictures(flown);
-    expectTestedByBins(flown[1]);
-    EXPECT_LT(sumOf(flown[1].figures)["tilesKept"], sumOf(flown[0].figures)["tilesKept"]);
+    EXPECT_LT(sumOf(flown, 2, "kept_tiles"), sumOf(flown, 1, "kept_tiles"));
 }
 
 TEST_F(ViewerFlight, AFileThatIsMissingIsAnErrorWithoutATable) {
