@@ -6,7 +6,6 @@
 #include "CsvTable.h"
 #include "Failure.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -14,7 +13,7 @@ namespace osgAnalyticBin::flight {
 
 namespace {
 
-void read(const std::vector<Parameter>& known, const std::string& item, bool isUnknownAllowed) {
+void read(const std::vector<Parameter>& known, const std::string& item) {
     const std::size_t equals = item.find('=');
     const std::string key = trimmed(item.substr(0, equals));
     const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
@@ -26,7 +25,6 @@ void read(const std::vector<Parameter>& known, const std::string& item, bool isU
         if (parameter.take(value)) return;
         problem = "malformed";
     }
-    if (problem == "unknown" && isUnknownAllowed) return;
     throw support::Failure(problem + " parameter \"" + trimmed(item) + "\"; allowed are " + allowed);
 }
 
@@ -52,14 +50,7 @@ std::function<bool(const std::string&)> wholeInto(int& target, int least, int mo
 
 void readBracketed(const std::vector<Parameter>& known, const std::string& text) {
     std::istringstream items(text);
-    for (std::string item; std::getline(items, item, ',');) read(known, item, false);
-}
-
-void readOptionString(const std::vector<Parameter>& known, const std::string& text) {
-    std::string blanks = text;
-    std::replace(blanks.begin(), blanks.end(), ',', ' ');
-    std::istringstream items(blanks);
-    for (std::string item; items >> item;) read(known, item, true);
+    for (std::string item; std::getline(items, item, ',');) read(known, item);
 }
 
 }  // namespace osgAnalyticBin::flight

@@ -25,8 +25,4 @@ struct Parameter {
 /// Throws: Failure for one that is unknown or malformed.
 void readBracketed(const std::vector<Parameter>& known, const std::string& text);
 
-/// Reads those in an option string, parted by blanks or commas, where words of other plugins may stand too.
-/// Throws: Failure for one that is malformed.
-void readOptionString(const std::vector<Parameter>& known, const std::string& text);
-
 }  // namespace osgAnalyticBin::flight

@@ -293,7 +293,6 @@ public:
         FlightOptions flightOptions;
         const auto parameters = flightOptions.parameters();
         try {
-            if (options) readOptionString(parameters, options->getOptionString());
             readBracketed(parameters, name.parameters);
             return ReadResult(nodeOf(readCameraPathFiles({pathFile}), flightOptions).get());
         } catch (const support::Failure& failure) {

@@ -3,7 +3,6 @@
 
 #include "GlobeOptions.h"
 
-#include "CsvTable.h"
 #include "Failure.h"
 
 #include <osgAnalyticBin/NameParameters.h>
@@ -14,7 +13,6 @@ namespace osgAnalyticBin::globe {
 
 namespace {
 
-using flight::textFrom;
 using support::Failure;
 using tiles::TileId;
 
@@ -37,8 +35,7 @@ std::string withoutFolder(const std::string& fileName) {
 }  // namespace
 
 bool GlobeOptions::operator==(const GlobeOptions& other) const {
-    return levels == other.levels && cells == other.cells && relief == other.relief && lod == other.lod &&
-           bins == other.bins;
+    return levels == other.levels && cells == other.cells && bins == other.bins;
 }
 
 std::vector<flight::Parameter> GlobeOptions::parameters() {
@@ -54,27 +51,20 @@ std::vector<flight::Parameter> GlobeOptions::parameters() {
              "tiles are refined in steps of half a metre.",
              flight::wholeInto(levels, 0, kMostLevels)},
             {"cells=2..64", "Cells along a tile's edge, an even number (default: 16)", takeCells},
-            {"relief=0..20000", "Metres from the lowest terrain there may be to the highest (default: 8000)",
-             flight::numberInto(relief, 0.0, kMostRelief)},
-            {"lod=1..100", "Half diagonals of a tile from which on it is refined (default: 4)",
-             flight::numberInto(lod, 1.0, 100.0)},
             {"bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)", takeBins}};
 }
 
-GlobeName globeNameOf(const std::string& fileName, const std::string& optionString) {
+GlobeName globeNameOf(const std::string& fileName) {
     const std::string file = withoutFolder(fileName);
     const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
     GlobeName result;
     const auto known = result.options.parameters();
     result.tile = tileFrom(parts.name);
     try {
-        if (!result.tile) {
-            flight::readOptionString(known, optionString);
-            if (!parts.name.empty() &&
-                !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name))
-                throw Failure("\"" + parts.name + "\" is no number of levels; give 0 to 24, for example 12." +
-                              kGlobeExtension);
-        }
+        if (!result.tile && !parts.name.empty() &&
+            !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name))
+            throw Failure("\"" + parts.name + "\" is no number of levels; give 0 to 24, for example 12." +
+                          kGlobeExtension);
         flight::readBracketed(known, parts.parameters);
         if (result.tile && !hasChildren(*result.tile, result.options))
             throw Failure("tile \"" + parts.name + "\" has no children in a globe of " +
@@ -89,8 +79,6 @@ std::string rootFileOf(const GlobeOptions& options) {
     const GlobeOptions usual;
     std::string text = "(levels=" + std::to_string(options.levels);
     if (options.cells != usual.cells) text += ",cells=" + std::to_string(options.cells);
-    if (options.relief != usual.relief) text += ",relief=" + textFrom(options.relief);
-    if (options.lod != usual.lod) text += ",lod=" + textFrom(options.lod);
     if (options.bins != usual.bins) text += ",bins=off";
     return text + ")." + kGlobeExtension;
 }

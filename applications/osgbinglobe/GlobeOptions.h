@@ -13,16 +13,14 @@ namespace osgAnalyticBin::globe {
 
 /// What a procedural globe is made of.
 struct GlobeOptions {
-    int levels = 12;  ///< below the 16 x 8 start tiles, 0 to 24
-    int cells = 16;   ///< along a tile's edge, even, 2 to 64
-    double relief =
-        8000.0;        ///< metres from the lowest terrain there may be, at the ellipsoid, to the highest; 0 to 20000
-    double lod = 4.0;  ///< half diagonals from its middle at which a tile is refined, 1 to 100
+    int levels = 12;   ///< below the 16 x 8 start tiles, 0 to 24
+    int cells = 16;    ///< along a tile's edge, even, 2 to 64
     bool bins = true;  ///< whether tiles carry their bins, and the root its horizon
 
     static constexpr int kMostLevels = 24;
     static constexpr int kMostCells = 64;
-    static constexpr double kMostRelief = 20000.0;
+    /// Metres from the lowest terrain, at the ellipsoid, to the highest.
+    static constexpr double kRelief = 8000.0;
 
     [[nodiscard]] bool operator==(const GlobeOptions& other) const;
 
@@ -41,10 +39,8 @@ struct GlobeName {
 
 /// Reads "LEVELS.proceduralglobe", "(levels=LEVELS,cells=CELLS).proceduralglobe", both at once as
 /// "LEVELS.(cells=CELLS).proceduralglobe", and the names of children, "LEVEL-X-Y.(...).proceduralglobe".
-/// `optionString`: a plugin option string; because every plugin reads that, items that are not ours are passed over.
-/// The name of the file wins; names of children say everything themselves.
 /// Throws: Failure when the name or a parameter is unknown, malformed or out of range.
-[[nodiscard]] GlobeName globeNameOf(const std::string& fileName, const std::string& optionString);
+[[nodiscard]] GlobeName globeNameOf(const std::string& fileName);
 
 /// The file with the children of a tile. Requires: a tile above the deepest level.
 [[nodiscard]] std::string childrenFileOf(const tiles::TileId& tile, const GlobeOptions& options);

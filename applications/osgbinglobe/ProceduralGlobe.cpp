@@ -28,6 +28,10 @@ constexpr double kRounding = 0.5 * kStep;
 
 // Of the relief, how much is coloured as the bottom of a sea.
 constexpr double kSea = 0.45;
+// No terrain is higher, metres.
+constexpr double kHighest = 20000.0;
+// Half diagonals from its middle at which a tile is refined.
+constexpr double kLod = 4.0;
 
 core::Ellipsoid wgs84() {
     const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel;
@@ -41,14 +45,14 @@ constexpr const char* kWkt =
 }  // namespace
 
 ProceduralGlobe::ProceduralGlobe(const GlobeOptions& options)
-    : _options(options), _layout(options.cells, options.levels, wgs84()), _terrain(options.relief) {}
+    : _options(options), _layout(options.cells, options.levels, wgs84()), _terrain(GlobeOptions::kRelief) {}
 
 // How far the edge of a mesh may be above or below the terrain: heights between posts and their rounding, and the sag
 // of the chords.
 double ProceduralGlobe::edgeError(int level) const noexcept {
     constexpr double kHigherOrders = 1.1;
     const double spacing = _layout.spacingDeg(level) * kRadiansPerDegree;
-    const double radius = _layout.ellipsoid().equatorialRadius() + GlobeOptions::kMostRelief;
+    const double radius = _layout.ellipsoid().equatorialRadius() + kHighest;
     return _terrain.interpolationError(spacing) + kRounding + kHigherOrders * 0.125 * radius * spacing * spacing;
 }
 
@@ -75,7 +79,7 @@ core::GeodeticBin ProceduralGlobe::meshBox(const TileId& tile, int level, const 
     const auto posts = (static_cast<std::size_t>(_layout.cells()) << (level - tile.level)) + 1;
     const double depth = skirtDepth(level);
     const core::GeodeticGridBounds bounds(_layout.ellipsoid(), {grown.latitude(), grown.longitude(), posts, posts},
-                                          GlobeOptions::kMostRelief + depth);
+                                          kHighest + depth);
     return {bounds.latitude(), grown.longitude(), {heights.lower - bounds.sag() - depth, heights.upper}};
 }
 
@@ -114,7 +118,7 @@ TerrainGrid ProceduralGlobe::gridOf(const TileId& tile) const {
                                                        std::vector<std::int32_t>(posts, lean)};
     }
     grid.colours = hypsometricStops();
-    for (TerrainGrid::ColourStop& stop : grid.colours) stop.height += static_cast<float>(kSea * _options.relief);
+    for (TerrainGrid::ColourStop& stop : grid.colours) stop.height += static_cast<float>(kSea * GlobeOptions::kRelief);
     return grid;
 }
 
@@ -125,7 +129,7 @@ osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, tiles::Sha
     const osg::ref_ptr<osg::Node> placed = tiles::makePlaced(*geometry, grid.origin);
     const core::Interval own = tiles::heightsOf(grid);
     const double surfaceLow = meshBox(tile, tile.level, own).altitude().lower + skirtDepth(tile.level);
-    const tiles::TileFacts facts{binOf(tile, own), surfaceLow, _layout, _options.lod,
+    const tiles::TileFacts facts{binOf(tile, own), surfaceLow, _layout, kLod,
                                  hasChildren(tile) ? childrenFileOf(tile, _options) : ""};
     osg::ref_ptr<osg::Node> node = tiles::makeTileNode(tile, *placed, facts);
     if (!_options.bins) node->setUserDataContainer(nullptr);

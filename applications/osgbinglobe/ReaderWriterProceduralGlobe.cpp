@@ -30,11 +30,10 @@ public:
         return readNode(fileName, options);
     }
 
-    ReadResult readNode(const std::string& fileName, const Options* options) const override {
+    ReadResult readNode(const std::string& fileName, const Options*) const override {
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName))) return ReadResult::FILE_NOT_HANDLED;
         try {
-            const auto name =
-                osgAnalyticBin::globe::globeNameOf(fileName, options ? options->getOptionString() : std::string());
+            const auto name = osgAnalyticBin::globe::globeNameOf(fileName);
             const auto globe = globeOf(name.options);
             const osg::ref_ptr<osg::Node> node = name.tile ? globe->children(*name.tile) : globe->root();
             return node.get();

@@ -102,7 +102,7 @@ std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     constexpr double kFovDeg = 60.0;
     // In front of the camera the line of sight meets the ground within a few tiles of the deepest level.
     const double tile = std::ldexp(tiles::TileLayout::kStartTileDeg, -options.levels) * kMetresPerDegree;
-    const globe::ProceduralTerrain terrain(options.relief);
+    const globe::ProceduralTerrain terrain(globe::GlobeOptions::kRelief);
     const auto above = [&](const tiles::PositionDeg& at, double metres) {
         return core::Geodetic{at.latitudeDeg * kRadiansPerDegree, at.longitudeDeg * kRadiansPerDegree,
                               terrain.height(at) + metres};
