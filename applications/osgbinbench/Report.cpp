@@ -24,7 +24,7 @@ using support::Failure;
 constexpr const char* kPixelsColumn = "differing_pixels";
 
 /// One folder: a row for each pose, its name, and its picture.
-struct Flight {
+struct FlownFolder {
     MethodFigures figures;
     std::vector<std::string> columns, poses, pictures;
 };
@@ -39,29 +39,29 @@ Json numberIn(const flight::CsvTable& table, const flight::CsvTable::Row& row, s
     return isTime ? Json(*number) : Json(static_cast<std::uint64_t>(*number));
 }
 
-Flight flightFrom(const std::string& folder) {
+FlownFolder flownFrom(const std::string& folder) {
     const fs::path path = fs::path(folder).lexically_normal();
-    Flight flight{{(path.has_filename() ? path : path.parent_path()).filename().string(), {}}, {}, {}, {}};
+    FlownFolder flown{{(path.has_filename() ? path : path.parent_path()).filename().string(), {}}, {}, {}, {}};
     const std::string file = (path / flight::kPoseTableName).string();
     std::ifstream input(file);
     if (!input) throw Failure(file + ": cannot be opened (did that flight fail?)");
     const flight::CsvTable table = flight::readCsv(input, file);
-    flight.columns = table.columns;
+    flown.columns = table.columns;
     for (const flight::CsvTable::Row& row : table.rows) {
-        Json& figures = flight.figures.rows.emplace_back();
+        Json& figures = flown.figures.rows.emplace_back();
         for (std::size_t i = 0; i < row.cells.size(); ++i) {
             const std::string& column = table.columns[i];
             if (column == "name")
-                flight.poses.push_back(row.cells[i]);
+                flown.poses.push_back(row.cells[i]);
             else if (column == "picture")
-                flight.pictures.push_back((path / row.cells[i]).string());
+                flown.pictures.push_back((path / row.cells[i]).string());
             else
                 figures[column] = numberIn(table, row, i);
         }
         figures[kPixelsColumn] = std::uint64_t{0};
     }
-    if (flight.poses.empty() || flight.pictures.empty()) throw Failure(file + ": no pose, or no picture");
-    return flight;
+    if (flown.poses.empty() || flown.pictures.empty()) throw Failure(file + ": no pose, or no picture");
+    return flown;
 }
 
 constexpr const char* kFooter =
@@ -78,17 +78,20 @@ constexpr const char* kFooter =
 }  // namespace
 
 Measurement readFlights(const std::vector<std::string>& folders) {
-    const Flight reference = flightFrom(folders.front());
+    const FlownFolder reference = flownFrom(folders.front());
     Measurement flown{reference.poses, {reference.figures}};
     for (std::size_t f = 1; f < folders.size(); ++f) {
-        Flight flight = flightFrom(folders[f]);
-        if (flight.poses != reference.poses)
+        FlownFolder other = flownFrom(folders[f]);
+        for (const MethodFigures& known : flown.methods)
+            if (known.method == other.figures.method)
+                throw Failure(folders[f] + ": there is a flight of that name already; rename the folder");
+        if (other.poses != reference.poses)
             throw Failure(folders[f] + ": its poses are not those of " + folders.front());
-        if (flight.columns != reference.columns)
+        if (other.columns != reference.columns)
             throw Failure(folders[f] + ": its columns are not those of " + folders.front());
-        for (std::size_t i = 0; i < flight.poses.size(); ++i)
-            flight.figures.rows[i][kPixelsColumn] = report::differingPixels(reference.pictures[i], flight.pictures[i]);
-        flown.methods.push_back(std::move(flight.figures));
+        for (std::size_t i = 0; i < other.poses.size(); ++i)
+            other.figures.rows[i][kPixelsColumn] = report::differingPixels(reference.pictures[i], other.pictures[i]);
+        flown.methods.push_back(std::move(other.figures));
     }
     return flown;
 }
