@@ -13,18 +13,13 @@
 namespace osgbinconv {
 
 using osgAnalyticBin::indexing::DatabaseFiles;
-using osgAnalyticBin::indexing::FileLink;
-using osgAnalyticBin::indexing::FilePlace;
 using osgAnalyticBin::indexing::FileRecord;
 using osgAnalyticBin::indexing::FileRecords;
-using osgAnalyticBin::indexing::Images;
 using osgAnalyticBin::indexing::MadeIndex;
-using osgAnalyticBin::indexing::TileRecord;
 
 struct WalkOptions {
     int threads = 1;
     bool isQuiet = false;
-    Images images = Images::Left;
 };
 
 /// Reads a database, with progress on stderr, and makes its index; tells on stderr, in a line each, what is missing or
@@ -45,15 +40,5 @@ void printIndex(const std::string& file);
 /// Makes the index of a database anew, in memory, and compares the one beside it. Says in a line that they agree.
 /// Throws Failure where they do not.
 void checkIndex(const DatabaseFiles& files, const WalkOptions& options);
-
-struct CopyOptions {
-    bool overwrite = false;
-    bool keepClusters = false;  ///< whether osg::ClusterCullingCallbacks stay in the copy
-};
-
-/// Writes a copy of a database with the bins in its files, in the format of the output's extension. The original is
-/// not touched. Throws Failure or Interrupted; then nothing of the copy is left.
-void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& copy,
-                  const WalkOptions& walk);
 
 }  // namespace osgbinconv

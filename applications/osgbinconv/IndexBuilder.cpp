@@ -147,8 +147,7 @@ void requireNothingForeign(const std::string& path) {
 
 class ReportedWalk final : public osgAnalyticBin::indexing::WalkObserver {
 public:
-    ReportedWalk(const std::function<void(const FileRecord&)>& keep, bool isQuiet)
-        : _keep(keep), _progress("read", isQuiet) {}
+    ReportedWalk(const std::function<void(const FileRecord&)>& keep, bool isQuiet) : _keep(keep), _progress(isQuiet) {}
 
     void beforeFile() override { osgAnalyticBin::support::throwIfStopRequested(); }
     void done(const FileRecord& record, bool isKnown, double share) override {
@@ -184,8 +183,7 @@ MadeIndex builtWith(PartFile& part, const DatabaseFiles& files, const WalkOption
 MadeIndex buildIndex(const DatabaseFiles& files, const WalkOptions& options, std::vector<FileRecord> known,
                      const std::function<void(const FileRecord&)>& keep) {
     ReportedWalk walk(keep, options.isQuiet);
-    FileRecords records =
-        osgAnalyticBin::indexing::walkDatabase(files, std::move(known), walk, options.threads, options.images);
+    FileRecords records = osgAnalyticBin::indexing::walkDatabase(files, std::move(known), walk, options.threads);
     walk.finish();
     MadeIndex made = osgAnalyticBin::indexing::indexFrom(files, std::move(records));
     for (const std::string& warning : made.warnings) std::cerr << "osgbinconv: warning: " << warning << std::endl;

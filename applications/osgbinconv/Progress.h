@@ -14,8 +14,7 @@ namespace osgbinconv {
 /// Says on stderr how far a pass over the files of a database is. Not for several threads at once.
 class Progress final {
 public:
-    /// `verb`: what is done with the files.
-    Progress(const char* verb, bool isQuiet) : _verb(verb), _isQuiet(isQuiet) {}
+    explicit Progress(bool isQuiet) : _isQuiet(isQuiet) {}
 
     /// A file is done, and with it this share of the pass.
     void add(std::size_t tiles, double share) {
@@ -39,13 +38,11 @@ private:
         const double seconds = _line.seconds();
         const double rate = seconds > 0.0 ? static_cast<double>(_tiles) / seconds : 0.0;
         char text[160];
-        std::snprintf(text, sizeof text, "osgbinconv: %s %zu files, %zu tiles, %.0f tiles/s", _verb, _files, _tiles,
-                      rate);
+        std::snprintf(text, sizeof text, "osgbinconv: read %zu files, %zu tiles, %.0f tiles/s", _files, _tiles, rate);
         const std::string known = _known > 0 ? " (" + std::to_string(_known) + " files from an earlier run)" : "";
         return text + known + ", ";
     }
 
-    const char* const _verb;
     const bool _isQuiet;
     osgAnalyticBin::support::ProgressLine _line{stderr};
     std::size_t _files = 0;

@@ -29,11 +29,9 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "Examples:\n"
     "  osgbinconv --index earth.ive             writes earth.ive.bins beside the database, which stays as it is\n"
-    "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        prints what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
     "An interrupted index is kept in earth.ive.bins.part; the same command resumes it.\n"
-    "A copy that was killed leaves earth.osgb.copying; the same command makes it again.\n"
     "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";
 
 /// The command line as it was typed.
@@ -43,8 +41,6 @@ struct Arguments {
     bool isCheck = false;
     bool keepsRecords = false;
     std::vector<std::string> files;
-    std::string cluster = "remove";
-    osgbinconv::CopyOptions copy;
     osgbinconv::WalkOptions walk;
 };
 
@@ -56,12 +52,7 @@ void declare(CLI::App& app, Arguments& arguments) {
         "--keep-records", arguments.keepsRecords,
         "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
         "since");
-    app.add_option("FILE", arguments.files,
-                   "the root file of a database; with --print also an index; then the root file of a copy, *.osgb");
-    app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
-    app.add_option("--cluster", arguments.cluster,
-                   "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
-                   "(default remove)");
+    app.add_option("FILE", arguments.files, "the root file of a database; with --print also an index");
     app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)")
         ->check(CLI::Range(1, 256));
     app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
@@ -72,14 +63,10 @@ void requireSense(const Arguments& arguments) {
     if (arguments.files.empty()) throw UsageError("FILE is required; see osgbinconv --help");
     if (commands > 1) throw UsageError("--index, --print and --check exclude each other; see osgbinconv --help");
     if (arguments.keepsRecords && !arguments.isIndex) throw UsageError("--keep-records: is for --index");
-    if (arguments.cluster != "remove" && arguments.cluster != "keep")
-        throw UsageError("--cluster: " + arguments.cluster + " is neither remove nor keep");
-    if (commands == 0 && arguments.files.size() == 1)
-        throw UsageError("nothing to do with \"" + arguments.files.front() +
-                         "\"; give --index, --print, --check or the root file of a copy");
-    const std::size_t most = commands == 0 ? 2 : 1;
-    if (arguments.files.size() > most)
-        throw UsageError("one file too many on the command line, \"" + arguments.files[most] +
+    if (commands == 0)
+        throw UsageError("nothing to do with \"" + arguments.files.front() + "\"; give --index, --print or --check");
+    if (arguments.files.size() > 1)
+        throw UsageError("one file too many on the command line, \"" + arguments.files[1] +
                          "\"; see osgbinconv --help");
 }
 
@@ -106,10 +93,6 @@ ExitCode run(int argc, char** argv) {
         return kSucceeded;
     }
     const DatabaseFiles files(file);
-    if (arguments.files.size() == 2) {
-        arguments.copy.keepClusters = arguments.cluster == "keep";
-        osgbinconv::copyDatabase(files, arguments.files[1], arguments.copy, arguments.walk);
-    }
     if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk, arguments.keepsRecords);
     if (arguments.isCheck) osgbinconv::checkIndex(files, arguments.walk);
     return kSucceeded;
@@ -120,8 +103,7 @@ ExitCode runWithAdvice(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const Interrupted&) {
-        throw Interrupted(
-            "interrupted; run the same command again: an index goes on where it ended, a copy starts anew");
+        throw Interrupted("interrupted; run the same command again: an index goes on where it ended");
     }
 }
 

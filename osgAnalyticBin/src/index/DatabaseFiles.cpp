@@ -63,28 +63,15 @@ bool isFont(const std::string& name) {
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-// OSG hands over the path where it has found a font: on its data path, or among the system's.
-bool isOfferedFont(const std::string& path) {
-    osgDB::FilePathList folders = osgDB::Registry::instance()->getDataFilePathList();
-    folders.insert(folders.end(), {"/usr/share/fonts", "/usr/local/share/fonts"});
-    const std::string plain = fs::path(path).lexically_normal().string();
-    return std::any_of(folders.begin(), folders.end(), [&plain](const std::string& folder) {
-        const std::string above = (fs::path(folder) / "").lexically_normal().string();
-        return above.size() > 1 && plain.compare(0, above.size(), above) == 0;
-    });
-}
-
 // While it exists, files that OSG reads in this thread because a file of a database names them (the content of
-// proxies, height fields, images, shaders, fonts) are searched for only below the database's folder and on OSG's data
-// path, and no server is contacted. Names that end in a pseudo-loader's extension, except .gdal, do not count as
-// files. Files that plugins of other formats than OSG's open by themselves are not noticed.
+// proxies, height fields) are searched for only below the database's folder and on OSG's data path, and no server is
+// contacted; bins do not depend on images, shaders and fonts, which are not opened. Names that end in a pseudo-loader's
+// extension, except .gdal, do not count as files. Files that plugins of other formats than OSG's open by themselves are
+// not noticed.
 class NestedReads final {
 public:
     // `file`: the one that is read, as DatabaseFiles names it. Requires: no other in this thread.
-    NestedReads(const DatabaseFiles& files, const std::string& file, Images images)
-        : _files(files), _images(images), _stack{file} {
-        current = this;
-    }
+    NestedReads(const DatabaseFiles& files, const std::string& file) : _files(files), _stack{file} { current = this; }
     ~NestedReads() { current = nullptr; }
     NestedReads(const NestedReads&) = delete;
     NestedReads& operator=(const NestedReads&) = delete;
@@ -114,21 +101,6 @@ public:
         }
         _stack.pop_back();
         return result;
-    }
-    // What only a copy needs. Images::Left: `standIn`, whatever the name; Images::Checked: the same, or refused.
-    [[nodiscard]] Result readPart(const std::string& name, const Result& standIn, const Reader& reader) {
-        if (_images == Images::Left) return standIn;
-        const std::string path = find(name).path;
-        if (path.empty() && leaves(name)) {
-            refuse(name, "which is outside of the database's folder; put a copy beside that file, where OSG finds it");
-        }
-        if (_images == Images::Checked) return standIn;
-        return path.empty() ? nothing() : reader(path);
-    }
-    // As readPart(); found among the system's fonts, too.
-    [[nodiscard]] Result readFont(const std::string& path, const Reader& reader) {
-        if (_images == Images::Read && isOfferedFont(path)) return reader(path);
-        return isOfferedFont(path) ? nothing() : readPart(path, nothing(), reader);
     }
 
 private:
@@ -173,7 +145,6 @@ private:
     }
 
     const DatabaseFiles& _files;
-    const Images _images;
     // The files that are being read, each named by the one before.
     std::vector<std::string> _stack;
     std::string _refusal;
@@ -197,7 +168,7 @@ public:
     Result readObject(const std::string& name, const Options* options) override {
         const auto reader = [&](const std::string& path) { return Default::readObject(path, options); };
         if (!current) return reader(name);
-        return isFont(name) ? current->readFont(name, reader) : current->readScene(name, reader);
+        return isFont(name) ? nothing() : current->readScene(name, reader);
     }
     Result openArchive(const std::string& name, osgDB::ReaderWriter::ArchiveStatus status, unsigned int blockSize,
                        const Options* options) override {
@@ -207,16 +178,13 @@ public:
         return current ? current->readScene(name, reader) : reader(name);
     }
     Result readImage(const std::string& name, const Options* options) override {
-        const auto reader = [&](const std::string& path) { return Default::readImage(path, options); };
-        return current ? current->readPart(name, new osg::Image, reader) : reader(name);
+        return current ? Result(new osg::Image) : Default::readImage(name, options);
     }
     Result readShader(const std::string& name, const Options* options) override {
-        const auto reader = [&](const std::string& path) { return Default::readShader(path, options); };
-        return current ? current->readPart(name, nothing(), reader) : reader(name);
+        return current ? nothing() : Default::readShader(name, options);
     }
     Result readScript(const std::string& name, const Options* options) override {
-        const auto reader = [&](const std::string& path) { return Default::readScript(path, options); };
-        return current ? current->readPart(name, nothing(), reader) : reader(name);
+        return current ? nothing() : Default::readScript(name, options);
     }
 
 protected:
@@ -268,7 +236,7 @@ std::string DatabaseFiles::pathOf(const std::string& file) const {
     return file.empty() ? _rootFile : _folder + "/" + file;
 }
 
-osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images images, std::string& error) const {
+osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, std::string& error) const {
     const std::string path = pathOf(file);
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) {
@@ -279,7 +247,7 @@ osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images imag
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     options->getDatabasePathList().push_front(osgDB::getFilePath(path));
     options->setReadFileCallback(new ReadsOfThread);
-    const NestedReads nested(*this, file, images);
+    const NestedReads nested(*this, file);
     osg::ref_ptr<osg::Node> node;
     try {
         osgDB::ReaderWriter::ReadResult result = osgAnalyticBin::readTileFile(path, options);

@@ -31,8 +31,8 @@ struct Done {
 /// The files that are done, and the other data that the threads share.
 class Walk {
 public:
-    Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, Images images)
-        : _files(files), _images(images), _observer(observer) {
+    Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer)
+        : _files(files), _observer(observer) {
         for (FileRecord& record : known) _known[record.file] = std::move(record);
     }
 
@@ -64,7 +64,7 @@ private:
 
     FileRecord recordOf(const Job& job) const {
         std::string error;
-        const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error);
+        const osg::ref_ptr<osg::Node> scene = _files.read(job.file, error);
         if (scene) return surveyFile(*scene, job.file, job.place, _files);
         if (!job.file.empty()) return {};
         throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
@@ -95,7 +95,6 @@ private:
     }
 
     const DatabaseFiles& _files;
-    const Images _images;
     WalkObserver& _observer;
     std::map<std::string, FileRecord> _known;
 
@@ -110,9 +109,9 @@ WalkObserver::~WalkObserver() = default;
 
 void WalkObserver::done(const FileRecord&, bool, double) {}
 
-FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, int threads,
-                         Images images) {
-    return Walk(files, std::move(known), observer, images).run(threads);
+FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer,
+                         int threads) {
+    return Walk(files, std::move(known), observer).run(threads);
 }
 
 }  // namespace osgAnalyticBin::indexing

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 """Kills osgbindem and osgbinconv at random moments, fills their disk, forbids them to write and runs two at once. At no
-moment there is a database, a copy or an index that looks complete and is not; the same command then completes it, byte
-for byte as an undisturbed run does. Disks of its own need root or a user namespace; where neither may mount, that part is
+moment there is a database or an index that looks complete and is not; the same command then completes it, byte for byte
+as an undisturbed run does. Disks of its own need root or a user namespace; where neither may mount, that part is
 skipped, said in the last line, and the exit code is 77."""
 
 import argparse
@@ -239,12 +239,7 @@ class Cases:
         self.index = self.copied("index")
         # the reference has to be whole itself: nothing is missing or broken
         require(succeed(self.index_command(self.index)).stderr.find("warning") < 0, "the reference is not whole")
-        self.copies = {}
-        for which, source in (("old", self.old), ("new", self.new)):
-            self.copies[which] = work / f"copy_{which}"
-            self.copies[which].mkdir()
-            succeed([osgbinconv, source / "earth.osgb", self.copies[which] / "earth.osgb", "--quiet"])
-        self.trees = {f: tree(f) for f in (self.old, self.new, self.globe, self.index, *self.copies.values())}
+        self.trees = {f: tree(f) for f in (self.old, self.new, self.globe, self.index)}
 
     def built(self, name, levels, rasters=("globe.asc", "inset.asc")):
         folder = self.work / name
@@ -301,44 +296,31 @@ class Cases:
                      lambda folder, is_old: shutil.copytree(self.index if is_old else self.new, folder, dirs_exist_ok=True),
                      sound_index, self.trees[self.index])
         index.reference = self.index
-        copies = self.copies
-        copy = Case("osgbinconv copy",
-                    lambda folder: [self.osgbinconv, self.new / "earth.osgb", folder / "earth.osgb", "--quiet"],
-                    lambda folder, is_old: None,
-                    lambda folder: self.whole_or_no_root(folder, (copies["new"],)), self.trees[copies["new"]])
-        copy.reference = copies["new"]
-        over = Case("osgbinconv copy --overwrite",
-                    lambda folder: [self.osgbinconv, self.new / "earth.osgb", folder / "earth.osgb", "--quiet", "--overwrite"],
-                    lambda folder, is_old: shutil.copytree(copies["old"], folder, dirs_exist_ok=True),
-                    lambda folder: self.whole_or_no_root(folder, (copies["old"], copies["new"])), self.trees[copies["new"]])
-        over.reference = copies["new"]
-        over.growth = pages(copies["new"]) - pages(copies["old"])
         update = Case("osgbindem --update", lambda folder: [*self.build_command(folder), "--update"],
                       lambda folder, is_old: shutil.copytree(self.globe, folder, dirs_exist_ok=True),
                       self.old_above_new, self.trees[self.new])
         update.reference = self.new
         update.growth = (self.new / "earth.osgb").stat().st_size
-        return build, update, index, copy, over
+        return build, update, index
 
 
 def run_parts(arguments, programs, no_disks):
     cases = Cases(arguments.work.resolve(), programs / "osgbindem", programs / "osgbinconv", arguments.levels)
-    build, update, index, copy, over = cases.all()
+    build, update, index = cases.all()
     scratch = cases.work / "run"
-    chosen = [case for case in (build, update, index, copy, over) if arguments.only in case.name]
+    chosen = [case for case in (build, update, index) if arguments.only in case.name]
     require(chosen, f"no case is named {arguments.only}")
     if arguments.part != "disks":
         for case in chosen:
             case.measure(scratch)
             print(f"{case.name}: {len(case.expected)} files in {case.duration:.2f} s undisturbed", flush=True)
             kills(case, scratch, arguments.kills, arguments.seed)
-        for case, program, lock in ((build, "osgbindem", "earth_tiles.lock"), (index, "osgbinconv", "earth.osgb.bins.part"),
-                                    (copy, "osgbinconv", "earth.osgb.copying")):
+        for case, program, lock in ((build, "osgbindem", "earth_tiles.lock"), (index, "osgbinconv", "earth.osgb.bins.part")):
             if case in chosen:
                 both_at_once(case, scratch, [f"another {program}"], lock)
     if arguments.part == "kills" or no_disks:
         return
-    for case, is_old in ((build, False), (build, True), (update, True), (index, False), (copy, False), (over, True)):
+    for case, is_old in ((build, False), (build, True), (update, True), (index, False)):
         if case in chosen:
             bad_disks(case, scratch, is_old)
 

@@ -21,13 +21,6 @@ public:
     ~Failure() override;
 };
 
-/// How images, shaders and fonts in separate files are treated.
-enum class Images {
-    Left,     ///< replaced by stand-ins, whatever their names are
-    Checked,  ///< replaced by stand-ins; a name that leads out of the folder is an error
-    Read      ///< read; a name that leads out of the folder is an error
-};
-
 /// Size and time of a file; 0 for a missing file.
 [[nodiscard]] FileStamp stampOfPath(const std::string& path);
 
@@ -46,10 +39,11 @@ public:
     /// stampOfPath() of a file that is named as above.
     [[nodiscard]] FileStamp stampOf(const std::string& file) const { return stampOfPath(pathOf(file)); }
 
-    /// The scene of a file, as the pager would get it. May be called by several threads.
-    /// Returns: null, with the reason in `error`, for a file that is missing or broken.
-    /// Throws Failure when something that has to be read with it is outside of the folder.
-    [[nodiscard]] osg::ref_ptr<osg::Node> read(const std::string& file, Images images, std::string& error) const;
+    /// The scene of a file, as the pager would get it, but with stand-ins for images, shaders and fonts in files of
+    /// their own, whatever their names are. May be called by several threads. Returns: null, with the reason in
+    /// `error`, for a file that is missing or broken. Throws Failure when something that has to be read with it is
+    /// outside of the folder.
+    [[nodiscard]] osg::ref_ptr<osg::Node> read(const std::string& file, std::string& error) const;
 
     /// The name of a paged file, made relative to the root file's folder already. The root file becomes "".
     /// Throws Failure when it is outside of that folder.
@@ -64,7 +58,7 @@ private:
 /// Loads what OpenSceneGraph's readers load on first use, so that threads find it loaded.
 OSGANALYTICBIN_EXPORT void loadSerializers();
 
-/// Applies the rules of Images also to files that OpenSceneGraph reads without options (fonts, and others in its older
+/// Applies the rules of a read also to files that OpenSceneGraph reads without options (fonts, and others in its older
 /// formats) while DatabaseFiles::read() runs. It replaces the read callback of osgDB::Registry, so call it only in
 /// programs that read nothing else.
 OSGANALYTICBIN_EXPORT void checkAllReads();

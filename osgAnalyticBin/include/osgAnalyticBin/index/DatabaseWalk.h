@@ -34,8 +34,7 @@ public:
 /// Throws Failure when the root file cannot be read, when a file outside of the folder is paged, or when a file is
 /// paged in two frames that differ; and what the observer throws.
 [[nodiscard]] OSGANALYTICBIN_EXPORT FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
-                                                             WalkObserver& observer, int threads,
-                                                             Images images = Images::Left);
+                                                             WalkObserver& observer, int threads);
 
 /// An index with the records that it was made from.
 struct MadeIndex {

@@ -111,7 +111,6 @@ DrawnTile drawn(const FoundTile& tile) {
     DrawnTile result;
     result.file = tile.frame.file;
     result.ordinal = tile.ordinal;
-    if (hasStoredBin(*tile.node)) result.storedBin = storedBin(*tile.node);
     AnalyticBin bin;
     for (const auto& mesh : tile.meshes) {
         const TileSurface surface = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef);

@@ -30,11 +30,6 @@ inline Outcome runIndex(const std::string& rootFile) {
     return runBinconv({"--quiet", "--index", rootFile});
 }
 
-/// `option`: of those without a value.
-inline Outcome runCopy(const std::string& from, const std::string& to, const std::string& option = "--quiet") {
-    return runBinconv({"--quiet", option, from, to});
-}
-
 /// The index beside a root file; an empty one where there is none.
 inline osg::ref_ptr<BinIndex> indexOf(const std::string& rootFile) {
     std::string error;
@@ -77,8 +72,6 @@ struct DrawnTile {
     double low = 0.0;
     double high = 0.0;
     std::uint64_t fingerprint = 0;
-    /// What the file itself says; not valid: nothing.
-    AnalyticBin storedBin;
     /// Points of what it draws itself, skirts left out: some all over, and all along its edges.
     std::vector<glm::dvec3> samples;
     std::vector<core::Geodetic> edgeSamples;

@@ -39,15 +39,12 @@ protected:
 
 TEST_F(HardInput, NamesThatLeaveTheFolderAreRefused) {
     writeFile(folder / "outside.osgb", *makeSmallTile(""));
-    const std::string copies = folder.makeFolder("copy");
     for (const char* name :
          {"../outside.osgb", "a/../../outside.osgb", "..\\outside.osgb", "..", "/etc/outside.osgb",
           "//etc/outside.osgb", "http://host/outside.osgb", "file:///etc/outside.osgb", "C:/outside.osgb"}) {
         writeRoot(root, *makeSmallTile(name));
         expectFailure(runIndex(root), "outside of the database's folder");
         expectNoIndex();
-        expectFailure(runCopy(root, copies + "/e.osgb"), "outside of the database's folder");
-        EXPECT_TRUE(fs::is_empty(copies));
     }
 }
 
@@ -89,9 +86,8 @@ TEST_F(HardInput, HugeFilesEnd) {
     writeRoot(folder / "stacked.osgb", *stacked);
     writeFile(folder / "a.osgb", *makeSmallTile(""));
     for (const char* name : {"wide.osgb", "deep.osgt", "stacked.osgb"}) {
-        for (const Outcome& outcome :
-             {runIndex(folder / name), runCopy(folder / name, folder / "copy.osgb", "--overwrite")})
-            EXPECT_LT(outcome.code, 2) << name << ' ' << outcome.text;
+        const Outcome outcome = runIndex(folder / name);
+        EXPECT_LT(outcome.code, 2) << name << ' ' << outcome.text;
     }
 }
 
@@ -113,8 +109,6 @@ TEST_F(HardInput, FilesMayBePagedDeep) {
         ASSERT_TRUE(index->find(file, 0)) << file;
         EXPECT_GT(index->find(file, 0)->bin.bin().longitude().upper, osg::DegreesToRadians(10.9)) << file;
     }
-    expectSuccess(runCopy(root, folder.makeFolder("copy") + "/earth.osgb"));
-    EXPECT_TRUE(fs::exists(folder / ("copy/" + name(kPagedDeep))));
 }
 
 TEST_F(HardInput, FoldersBesideEachOtherAreFollowed) {
@@ -195,10 +189,8 @@ TEST_F(HardInput, BadCommandLinesAreOneLine) {
     } cases[] = {{{}, "FILE"},
                  {{"--index", "--print", "x"}, "--"},
                  {{"--index", "--threads", "0", "x"}, "--threads: Value 0"},
-                 {{"--cluster", "maybe", "x", "x.osgb"}, "--cluster: maybe"},
                  {{"x"}, "nothing to do"},
                  {{"--index", "a", "b"}, "\"b\""},
-                 {{"a", "b", "c"}, "\"c\""},
                  {{"--frobnicate", "x"}, "--frobnicate"},
                  {{"--index", folder / "absent.osgb"}, "absent.osgb", 1},
                  {{"--index", folder.path()}, "is no file", 1},
@@ -208,15 +200,6 @@ TEST_F(HardInput, BadCommandLinesAreOneLine) {
     for (const auto& wrong : cases) expectFailure(runBinconv(wrong.words), wrong.what, wrong.code);
     EXPECT_FALSE(fs::exists(cow + ".bins"));
     EXPECT_FALSE(fs::exists(cow + ".bins.part"));
-    // A bad name of the copy is refused before the database is read, which comes to another failure.
-    const std::string there = folder.write("there.osgb", "somebody's");
-    expectFailure(runCopy(text, folder / "copy.ive"), ".osgb, .osgt or .osgx", 2);
-    expectFailure(runCopy(text, folder / "absent/copy.osgb"), "create it first");
-    expectFailure(runCopy(text, there), "--overwrite");
-    expectFailure(runCopy(text, text), "a file of the database itself");
-    expectFailure(runCopy(text, folder.makeFolder("folder.osgb")), "is a folder");
-    expectFailure(runCopy(text, folder / "copy.osgb"), "text.osgb");
-    EXPECT_EQ(textOfFile(there), "somebody's");
 }
 
 }  // namespace
