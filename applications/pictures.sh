@@ -19,14 +19,13 @@ doc=osgAnalyticBin/doc
 sh applications/packages.sh demo imagemagick fonts-dejavu-core
 cmake --build "$build" --target osgbinviewer osgbinbench
 
-# The screen has room for two windows beside each other. Arguments: the window's width and height, the options of the
-# bins, steps.
+# Arguments: the window's width and height, the options of the bins, steps.
 view() {
     window="0 0 $1 $2"
     options=$3
     shift 3
     # shellcheck disable=SC2086
-    xvfb-run -a -s "-screen 0 2560x720x24" env LIBGL_ALWAYS_SOFTWARE=1 \
+    xvfb-run -a -s "-screen 0 1280x720x24" env LIBGL_ALWAYS_SOFTWARE=1 \
         LD_LIBRARY_PATH="$PWD/$build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
         "$build/bin/osgbinviewer" "$database" --options "$options" --window $window \
         --poses "${poses:-applications/osgbinviewer/pictures.csv}" ${near_far:+--COMPUTE_NEAR_FAR_MODE "$near_far"} --steps "$*"
@@ -42,7 +41,6 @@ take at=alps press=l press=B picture="$doc/viewer_bins.jpg" \
     press=F at=aside picture="$doc/viewer_frozen.jpg" \
     at=above press=Q picture="$doc/viewer_quadratic.jpg" \
     press=B press=B press=n picture="$doc/viewer_method.jpg" press=N picture="$doc/viewer_with.jpg"
-take at=alps press=l press=B press=y spy=65,38,3 spypicture="$doc/viewer_spy.jpg"
 take at=alps press=l press=s press=s frames=25 at=peaks frames=25 at=aside frames=25 at=peaks frames=25 at=alps \
     frames=25 picture="$doc/viewer_stats.jpg" press=s press=s press=s press=h picture="$doc/viewer_help.jpg"
 

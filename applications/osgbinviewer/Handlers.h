@@ -61,7 +61,7 @@ public:
             return false;
         }
         if (event.getHandled()) return false;
-        if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return handleOther(event, *view);
+        if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
         for (const Key& key : _keys) {
             if (key.key != event.getKey()) continue;
             key.press(*view);
@@ -85,9 +85,6 @@ protected:
 
     /// At every frame, between cull traversals. `camera`: the first of those that draw the view's scene.
     virtual void draw(osgViewer::View& /*view*/, osg::Camera& /*camera*/) {}
-
-    /// Any other event. Returns: whether it is handled.
-    virtual bool handleOther(const osgGA::GUIEventAdapter& /*event*/, osgViewer::View& /*view*/) { return false; }
 
 private:
     struct Key {
@@ -162,8 +159,8 @@ private:
 };
 
 /// Key `O`: draws a curtain over the part of the picture that terrain covers. Tiles behind the curtain are culled with
-/// `occlusion=on`, and with `auto` while it is in use. With frozen culling and in a second window, the curtain stands
-/// in front of the eye that culls. Where there is no curtain, a line says what is missing for terrain to hide tiles.
+/// `occlusion=on`, and with `auto` while it is in use. With frozen culling the curtain stands in front of the eye that
+/// culls. Where there is no curtain, a line says what is missing for terrain to hide tiles.
 /// Cost: one TileSurvey a frame while the curtain is shown.
 class CoveredPictureHandler : public KeyHandler {
 public:
@@ -207,46 +204,8 @@ private:
     const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::BottomRight);
 };
 
-/// Key `y`: opens or closes a second window that shows the view's camera from the side: what that camera draws,
-/// and its frustum. Drag in the window to orbit, scroll to zoom.
-class SpyViewHandler : public KeyHandler {
-public:
-    SpyViewHandler();
-
-    /// Opens or closes the window, as the key does. Between frames only; a viewer that draws in threads pauses them.
-    void setOpen(osgViewer::View& view, bool open);
-    /// Whether the window is there.
-    [[nodiscard]] bool isOpen() const { return _camera.valid(); }
-
-    /// The window's camera, a slave of the view's; null while it is closed.
-    [[nodiscard]] osg::Camera* camera() const { return _camera.get(); }
-
-    /// Where the window looks from: radians round the local vertical from behind the view's camera, radians above its
-    /// horizon, and the distance as a multiple of that from the camera to what it looks at.
-    void setOrbit(double azimuth, double elevation, double distance);
-
-protected:
-    ~SpyViewHandler() override;
-    void draw(osgViewer::View& view, osg::Camera& camera) override;
-    bool handleOther(const osgGA::GUIEventAdapter& event, osgViewer::View& view) override;
-
-private:
-    class Placement;
-
-    void open(osgViewer::View& view);
-    void close(osgViewer::View& view);
-    bool orbit(const osgGA::GUIEventAdapter& event);
-
-    osg::ref_ptr<osg::Camera> _camera;
-    osg::ref_ptr<osg::Group> _frustum;
-    const osg::ref_ptr<Placement> _placement;
-    float _lastX = 0.0F;
-    float _lastY = 0.0F;
-};
-
 /// Runs a viewer without a camera manipulator by a script, for pictures: see --steps. `poses` may be empty.
 /// Throws: std::runtime_error with one line for a step that cannot be understood or done.
-void runSteps(osgViewer::Viewer& viewer, SpyViewHandler& spy, const std::vector<flight::CameraPose>& poses,
-              const std::string& text);
+void runSteps(osgViewer::Viewer& viewer, const std::vector<flight::CameraPose>& poses, const std::string& text);
 
 }  // namespace osgAnalyticBin::viewer

@@ -25,9 +25,8 @@ void describe(osg::ApplicationUsage& usage) {
     usage.addCommandLineOption("--poses <file.csv>", "Camera path with the poses that --steps names.");
     usage.addCommandLineOption(
         "--steps <text>",
-        "Do this and end: at=POSE (or home), press=KEY, spy=AZIMUTH,ELEVATION,DISTANCE (degrees, and a multiple of the "
-        "camera's distance), frames=N, picture=FILE, spypicture=FILE, parted by blanks; each waits for the database's "
-        "pages.");
+        "Do this and end: at=POSE (or home), press=KEY, frames=N, picture=FILE, parted by blanks; each waits for the "
+        "database's pages.");
 }
 
 void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int helpType) {

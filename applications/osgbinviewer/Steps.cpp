@@ -38,8 +38,7 @@ osg::Camera& lastCamera(osg::GraphicsContext& window) {
 
 class Steps {
 public:
-    Steps(osgViewer::Viewer& viewer, SpyViewHandler& spy, const std::vector<flight::CameraPose>& poses)
-        : _viewer(viewer), _spy(spy), _poses(poses) {}
+    Steps(osgViewer::Viewer& viewer, const std::vector<flight::CameraPose>& poses) : _viewer(viewer), _poses(poses) {}
 
     void run(const std::string& text) {
         std::istringstream steps(text);
@@ -54,14 +53,9 @@ private:
     void runOne(const std::string& verb, const std::string& value) {
         if (verb == "at") return standAt(value);
         if (verb == "press") return press(value);
-        if (verb == "spy") return orbit(value);
         if (verb == "frames") return drawFrames(std::atoi(value.c_str()));
-        if (verb == "picture") return takePicture(value, _viewer.getCamera()->getGraphicsContext());
-        if (verb == "spypicture") {
-            if (!_spy.isOpen()) throw support::UsageError("--steps: spypicture needs the second window (press=y)");
-            return takePicture(value, _spy.camera()->getGraphicsContext());
-        }
-        throw support::UsageError("--steps: \"" + verb + "\" is none of at, press, spy, frames, picture, spypicture");
+        if (verb == "picture") return takePicture(value);
+        throw support::UsageError("--steps: \"" + verb + "\" is none of at, press, frames, picture");
     }
 
     void standAt(const std::string& name) {
@@ -87,18 +81,6 @@ private:
         drawUntilIdle();
     }
 
-    void orbit(const std::string& numbers) {
-        double azimuth = 0.0;
-        double elevation = 0.0;
-        double distance = 0.0;
-        char comma = 0;
-        std::istringstream in(numbers);
-        if (!(in >> azimuth >> comma >> elevation >> comma >> distance))
-            throw support::UsageError("--steps: spy takes AZIMUTH,ELEVATION,DISTANCE, not \"" + numbers + "\"");
-        _spy.setOrbit(osg::DegreesToRadians(azimuth), osg::DegreesToRadians(elevation), distance);
-        drawUntilIdle();
-    }
-
     void drawUntilIdle() {
         const osg::Timer_t begin = osg::Timer::instance()->tick();
         for (int idle = 0; idle < kIdleFrames;) {
@@ -114,8 +96,8 @@ private:
         for (int i = 0; i < count; ++i) _viewer.frame();
     }
 
-    void takePicture(const std::string& fileName, osg::GraphicsContext* window) {
-        osg::Camera& camera = lastCamera(*window);
+    void takePicture(const std::string& fileName) {
+        osg::Camera& camera = lastCamera(*_viewer.getCamera()->getGraphicsContext());
         const osg::ref_ptr<flight::FrameCapture> capture = new flight::FrameCapture;
         camera.addFinalDrawCallback(capture);
         capture->request(_viewer.getFrameStamp()->getFrameNumber() + 1);
@@ -129,15 +111,13 @@ private:
     }
 
     osgViewer::Viewer& _viewer;
-    SpyViewHandler& _spy;
     const std::vector<flight::CameraPose> _poses;
 };
 
 }  // namespace
 
-void runSteps(osgViewer::Viewer& viewer, SpyViewHandler& spy, const std::vector<flight::CameraPose>& poses,
-              const std::string& text) {
-    Steps(viewer, spy, poses).run(text);
+void runSteps(osgViewer::Viewer& viewer, const std::vector<flight::CameraPose>& poses, const std::string& text) {
+    Steps(viewer, poses).run(text);
 }
 
 }  // namespace osgAnalyticBin::viewer

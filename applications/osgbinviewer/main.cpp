@@ -60,8 +60,7 @@ osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& s
     return keys;
 }
 
-osg::ref_ptr<viewer::SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings,
-                                                 osg::ApplicationUsage& usage) {
+void addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings, osg::ApplicationUsage& usage) {
     viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
@@ -81,9 +80,6 @@ osg::ref_ptr<viewer::SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, cons
     viewer.addEventHandler(new viewer::BinDisplayHandler);
     viewer.addEventHandler(new viewer::CoveredPictureHandler);
     viewer.addEventHandler(new viewer::MethodSwitchHandler(settings.cullOptions));
-    const osg::ref_ptr<viewer::SpyViewHandler> spy = new viewer::SpyViewHandler;
-    viewer.addEventHandler(spy);
-    return spy;
 }
 
 // A display that cannot be opened is one line of ours; OSG's own would come before it.
@@ -125,13 +121,13 @@ osg::ref_ptr<osg::Node> readDatabase(const viewer::NamedDatabase& database) {
     throw std::runtime_error(database.given + ": " + result.statusMessage());
 }
 
-ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, viewer::SpyViewHandler& spy) {
+ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings) {
     std::vector<flight::CameraPose> poses;
     if (!settings.poses.empty()) poses = flight::readCameraPathFiles({settings.poses});
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setRealizeOperation(new flight::WithoutAnisotropy);
     realize(viewer);
-    viewer::runSteps(viewer, spy, poses, settings.steps);
+    viewer::runSteps(viewer, poses, settings.steps);
     return kSucceeded;
 }
 
@@ -157,8 +153,8 @@ ExitCode show(osg::ArgumentParser& arguments) {
     }
     if (!error.empty()) throw std::runtime_error(error);
     viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
-    const osg::ref_ptr<viewer::SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
-    if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
+    addHandlers(viewer, settings, *arguments.getApplicationUsage());
+    if (!settings.steps.empty()) return runSteps(viewer, settings);
     realize(viewer);
     viewer.setCameraManipulator(makeManipulator(settings, viewer));
     return viewer.run() == 0 ? kSucceeded : support::kFailed;

@@ -22,8 +22,7 @@ namespace osgAnalyticBin {
 namespace {
 
 bool draws(osg::Camera& camera) {
-    const CameraCulling* culling = CameraCulling::find(camera);
-    return camera.getGraphicsContext() && camera.getViewport() && !(culling && culling->isFollowing());
+    return camera.getGraphicsContext() && camera.getViewport();
 }
 
 using AttributeList = osgUtil::PositionalStateContainer::AttrMatrixList;
@@ -122,7 +121,7 @@ CameraCulling::~CameraCulling() = default;
 
 // By its own view the camera is culled as without this callback: what terrain hides does not depend on it.
 void CameraCulling::declare() {
-    setTraversesAlways(*this, !_frozen && !_followed.valid());
+    setTraversesAlways(*this, !_frozen);
 }
 
 CameraCulling* CameraCulling::find(osg::Camera& camera) {
@@ -146,22 +145,9 @@ std::vector<osg::Camera*> CameraCulling::drawingCameras(osgViewer::View& view) {
     return cameras;
 }
 
-std::optional<CullingView> CameraCulling::foreignView() const {
-    if (_frozen) return _frozen;
-    osg::ref_ptr<osg::Camera> followed;
-    if (!_followed.lock(followed)) return std::nullopt;
-    return _followedView ? *_followedView : cullingView(*followed);
-}
-
-void CameraCulling::updateFollowed() {
-    osg::ref_ptr<osg::Camera> followed;
-    if (_followed.lock(followed)) _followedView = cullingView(*followed);
-}
-
 CullingView CameraCulling::cullingView(osg::Camera& camera) {
     const CameraCulling* culling = find(camera);
-    const std::optional<CullingView> foreign = culling ? culling->foreignView() : std::nullopt;
-    if (foreign) return *foreign;
+    if (culling && culling->_frozen) return *culling->_frozen;
     return {camera.getViewMatrix(), camera.getProjectionMatrix(), camera.getViewport()};
 }
 
@@ -171,15 +157,12 @@ void CameraCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
         return;
     }
-    if (const auto view = foreignView()) {
-        traverseBy(*view, *visitor, [&] { traverse(node, nv); });
+    if (_frozen) {
+        traverseBy(*_frozen, *visitor, [&] { traverse(node, nv); });
     } else {
         traverse(node, nv);
     }
     drawOverlay(*visitor);
-    osg::ref_ptr<osg::Camera> followed;
-    const CameraCulling* other = _followed.lock(followed) ? find(*followed) : nullptr;
-    if (other && other != this) other->drawOverlay(*visitor);
 }
 
 void CameraCulling::resizeGLObjectBuffers(unsigned int size) {
@@ -189,9 +172,6 @@ void CameraCulling::resizeGLObjectBuffers(unsigned int size) {
 // The next window gets the number of a closed one: nothing may be left of that.
 void CameraCulling::releaseGLObjects(osg::State* state) const {
     _overlay->releaseGLObjects(state);
-    osg::ref_ptr<osg::Camera> followed;
-    const CameraCulling* other = _followed.lock(followed) ? find(*followed) : nullptr;
-    if (other && other != this) other->_overlay->releaseGLObjects(state);
 }
 
 void CameraCulling::drawOverlay(osgUtil::CullVisitor& visitor) const {

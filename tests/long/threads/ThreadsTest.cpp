@@ -90,14 +90,12 @@ public:
           _stats(new osgViewer::StatsHandler),
           _freeze(new viewer::FreezeCullHandler),
           _switch(new viewer::MethodSwitchHandler(optionsWith(Method::Quadratic))),
-          _display(new viewer::BinDisplayHandler),
-          _spy(new viewer::SpyViewHandler) {
+          _display(new viewer::BinDisplayHandler) {
         // not all: slabs of inner tiles are made by the same code, and take most of the time
         _display->setShown(viewer::BinDisplayHandler::Shown::Ends);
         rig.view().addEventHandler(new BinStatsHandler(*_stats));
         rig.view().addEventHandler(_display);
         rig.view().addEventHandler(_switch);
-        rig.view().addEventHandler(_spy);
         rig.viewer().getViewerStats()->collectStats("frame_rate", true);
     }
 
@@ -110,8 +108,6 @@ public:
         if (frame % 8 == 3) setCullOptions(_scene, options);
         if (frame % 8 == 7) _switch->setMethod(_rig.view(), options.method);
         if (frame % 6 == 1) _freeze->setFrozen(_rig.view(), !_freeze->isFrozen());
-        // a second window draws what is drawn over the first
-        if (frame == 8 || frame == 18) _spy->setOpen(_rig.view(), !_spy->isOpen());
         if (frame % 3 == 0) culled += culledBy(_rig.cameras());
     }
 
@@ -131,7 +127,6 @@ private:
     const osg::ref_ptr<viewer::FreezeCullHandler> _freeze;
     const osg::ref_ptr<viewer::MethodSwitchHandler> _switch;
     const osg::ref_ptr<viewer::BinDisplayHandler> _display;
-    const osg::ref_ptr<viewer::SpyViewHandler> _spy;
 };
 
 osg::ref_ptr<osg::Group> readScene(const std::vector<std::string>& files) {

@@ -91,32 +91,6 @@ TEST(CameraCulling, IsDeclaredWhileTheCameraIsCulledByItsOwnView) {
     EXPECT_FALSE(traversesAlways(culling));
     culling.thaw();
     EXPECT_TRUE(traversesAlways(culling));
-    culling.follow(other);
-    EXPECT_FALSE(traversesAlways(culling));
-    culling.follow(nullptr);
-    EXPECT_TRUE(traversesAlways(culling));
-}
-
-TEST(FollowingCamera, IsCulledAsTheOtherAndDrawsItsOverlay) {
-    ViewerScene scene;
-    scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
-    const osg::ref_ptr<osg::Camera> watched = new osg::Camera;
-    watched->setViewport(0, 0, 400, 400);
-    watched->setViewMatrix(scene.camera().getViewMatrix());
-    watched->setProjectionMatrix(scene.camera().getProjectionMatrix());
-    Drawn seen = scene.cull();
-    const osg::ref_ptr<osg::Geode> marker = new osg::Geode;
-    const osg::ref_ptr<osg::Geometry> triangle = osg::createTexturedQuadGeometry({}, {1e6F, 0, 0}, {0, 1e6F, 0});
-    marker->addDrawable(triangle);
-    CameraCulling::of(*watched).overlay().addChild(marker);
-    CameraCulling::of(scene.camera()).follow(watched);
-    scene.lookFrom(10.0, -60.0, 9e6, 20.0, 50.0);
-    std::set<const osg::Drawable*> expected = drawables(seen);
-    expected.insert(triangle);
-    EXPECT_EQ(drawables(scene.cull()), expected);
-    EXPECT_GT(scene.nearPlane, 5e6) << "the overlay does not count";
-    CameraCulling::of(scene.camera()).follow(nullptr);
-    EXPECT_NE(drawables(scene.cull()), expected);
 }
 
 }  // namespace

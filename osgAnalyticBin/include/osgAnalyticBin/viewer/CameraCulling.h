@@ -10,7 +10,6 @@
 #include <osg/Matrixd>
 #include <osg/NodeCallback>
 #include <osg/Viewport>
-#include <osg/observer_ptr>
 
 #include <optional>
 #include <vector>
@@ -31,10 +30,10 @@ struct CullingView {
     osg::ref_ptr<osg::Viewport> viewport;  ///< pixels
 };
 
-/// The cull callback of a camera that can show what another camera draws. The scene is culled, refined and paged by a
-/// culling view, which is frozen or belongs to another camera, and is drawn with the camera's own view. Every test of
-/// every node runs with the matrices of the culling view, so exactly the same is drawn. Overlays are drawn by the
-/// camera's own view, cut by neither near nor far plane. Cameras inside the scene (render to texture) keep the culling
+/// The cull callback of a camera that can show what is drawn from elsewhere. While it is frozen, the scene is culled,
+/// refined and paged by a culling view, and is drawn with the camera's own view. Every test of every node runs with the
+/// matrices of the culling view, so exactly the same is drawn. Overlays are drawn by the camera's own view, cut by
+/// neither near nor far plane. Cameras inside the scene (render to texture) keep the culling
 /// view throughout, and OccluderNodes are those of the camera's own view.
 /// Threads: setters and the overlay's nodes may be touched where no cull traversal runs, as between frames.
 class OSGANALYTICBINVIEWER_EXPORT CameraCulling : public osg::NodeCallback {
@@ -47,7 +46,7 @@ public:
     /// Returns: nullptr when the camera has none.
     [[nodiscard]] static CameraCulling* find(osg::Camera& camera);
 
-    /// The cameras that draw a view's scene: the master or its slaves, without those that follow another camera.
+    /// The cameras that draw a view's scene: the master or its slaves.
     [[nodiscard]] static std::vector<osg::Camera*> drawingCameras(osgViewer::View& view);
 
     /// The present culling view; by default the camera's own.
@@ -58,27 +57,13 @@ public:
         _frozen = view;
         declare();
     }
-    /// Culls by the camera's own view again, or that of the followed one.
+    /// Culls by the camera's own view again.
     void thaw() {
         _frozen.reset();
         declare();
     }
     /// Whether freeze() holds.
     [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
-
-    /// Follows a camera: culls as that camera is culled, frame by frame, and draws its overlay, too. nullptr: stops
-    /// following.
-    void follow(osg::Camera* camera) {
-        _followed = camera;
-        _followedView.reset();
-        declare();
-    }
-    /// Copies the culling view of the followed camera for the next cull traversals. Call it between frames, because
-    /// cull threads write to their cameras' projections. If it is never called, each traversal reads the followed
-    /// camera itself.
-    void updateFollowed();
-    /// Whether another camera is followed.
-    [[nodiscard]] bool isFollowing() const { return _followed.valid(); }
 
     /// What the camera draws on top of its scene, in the world's frame; it is filled where the scene is shown as
     /// lines.
@@ -97,11 +82,9 @@ protected:
 
 private:
     void declare();
-    [[nodiscard]] std::optional<CullingView> foreignView() const;
     void drawOverlay(osgUtil::CullVisitor& visitor) const;
 
-    std::optional<CullingView> _frozen, _followedView;
-    osg::observer_ptr<osg::Camera> _followed;
+    std::optional<CullingView> _frozen;
     const osg::ref_ptr<osg::Group> _overlay;
 };
 

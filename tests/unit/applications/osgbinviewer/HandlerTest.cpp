@@ -34,10 +34,9 @@ protected:
         _methods = new MethodSwitchHandler;
         _freeze = new FreezeCullHandler;
         _bins = new BinDisplayHandler;
-        _spy = new SpyViewHandler;
         _stats = new osgViewer::StatsHandler;
         for (osgGA::GUIEventHandler* handler : std::initializer_list<osgGA::GUIEventHandler*>{
-                 _methods, _freeze, _bins, _spy, new BinStatsHandler(*_stats), _stats})
+                 _methods, _freeze, _bins, new BinStatsHandler(*_stats), _stats})
             _viewer.addEventHandler(handler);
     }
 
@@ -67,7 +66,6 @@ protected:
     osg::ref_ptr<MethodSwitchHandler> _methods;
     osg::ref_ptr<FreezeCullHandler> _freeze;
     osg::ref_ptr<BinDisplayHandler> _bins;
-    osg::ref_ptr<SpyViewHandler> _spy;
     osg::ref_ptr<osgViewer::StatsHandler> _stats;
 };
 
@@ -198,47 +196,17 @@ TEST_F(Handlers, KeepTextFilledWhereTheSceneIsShownAsLines) {
     EXPECT_EQ(differingBytes(*filled, *picture(_viewer)), 0u);
 }
 
-// Two draw threads that enlarge the array of a texture's objects at once would crash: there is room before.
-TEST_F(Handlers, OpenASecondWindowThatIsCulledAsTheFirst) {
-    class Roomy : public osg::Texture2D {
-    public:
-        [[nodiscard]] unsigned int room() const { return _textureObjectBuffer.size(); }
-    };
-    osg::DisplaySettings::instance()->setMaxNumberOfGraphicsContexts(1);
-    const osg::ref_ptr<Roomy> overlaid = new Roomy;
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setTextureAttribute(0, overlaid);
-    overlay().addChild(group);
-    ASSERT_EQ(overlaid->room(), 1u);
-    drawUntilIdle(_viewer);
-    // as the pager's threads make one while the window opens
-    const osg::ref_ptr<Roomy> read = new Roomy;
-    const std::size_t drawn = counts(_viewer).drawn;
-    press('y');
-    ASSERT_TRUE(_spy->isOpen());
-    const unsigned int second = _spy->camera()->getGraphicsContext()->getState()->getContextID();
-    EXPECT_GT(second, 0u);
-    EXPECT_GT(std::min(overlaid->room(), read->room()), second);
-    EXPECT_EQ(TileSurvey(*_spy->camera(), *_viewer.getFrameStamp()).counts().drawn, drawn);
-    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
-    EXPECT_EQ(binCounts(*_spy->camera(), frame).outside, binCounts(*_viewer.getCamera(), frame).outside);
-    EXPECT_NE(_spy->camera()->getViewMatrix(), _viewer.getCamera()->getViewMatrix());
-    press('y');
-    EXPECT_FALSE(_spy->isOpen());
-    EXPECT_EQ(_viewer.getNumSlaves(), 0u);
-}
-
 // The second time in the model with the most threads.
 TEST_F(Handlers, ComeBackToWhatWasDrawnBefore) {
     drawUntilIdle(_viewer);
     const TileCounts before = counts(_viewer);
     const auto pictureBefore = picture(_viewer);
-    for (const int key : {'F', 'B', 'B', 'y'}) press(key);
+    for (const int key : {'F', 'B', 'B'}) press(key);
     EXPECT_GT(differingBytes(*pictureBefore, *picture(_viewer)), 0u);
-    for (const int key : {'F', 'B', 'y'}) press(key);
+    for (const int key : {'F', 'B'}) press(key);
     EXPECT_EQ(differingBytes(*pictureBefore, *picture(_viewer)), 0u);
     _viewer.setThreadingModel(osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext);
-    for (const int key : {'F', 'B', 'y', 'n', 'n', 'n', 'Q', 'n', 'n', 'n', 'n', 'n', 'F', 'B', 'B', 'y'}) press(key);
+    for (const int key : {'F', 'B', 'n', 'n', 'n', 'Q', 'n', 'n', 'n', 'n', 'n', 'F', 'B', 'B'}) press(key);
     _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
     EXPECT_EQ(_bins->shown(), BinDisplayHandler::Shown::Nothing);
@@ -257,8 +225,8 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
         {_stats.get(), new osgViewer::HelpHandler, new osgViewer::WindowSizeHandler, new osgViewer::ThreadingHandler,
          new osgViewer::LODScaleHandler, new osgViewer::RecordCameraPathHandler, new osgViewer::ScreenCaptureHandler,
          new osgViewer::ToggleSyncToVBlankHandler, new osgGA::StateSetManipulator(new osg::StateSet)});
-    const auto ours = bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new CoveredPictureHandler});
-    EXPECT_EQ(ours.size(), 7u);
+    const auto ours = bindingsOf({_methods.get(), _freeze.get(), _bins.get(), new CoveredPictureHandler});
+    EXPECT_EQ(ours.size(), 6u);
     EXPECT_GT(osgs.size(), 14u);
     for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key.substr(1)), 0u) << key << ": " << text;
     EXPECT_LT(ours.rbegin()->first, osgs.begin()->first) << "first in the help";
