@@ -15,7 +15,6 @@
 #include <osgAnalyticBin/NameParameters.h>
 
 #include <osg/Group>
-#include <osg/LightSource>
 #include <osg/Notify>
 #include <osg/Timer>
 #include <osg/Version>
@@ -268,7 +267,7 @@ private:
 }  // namespace
 
 /// Reads "path.csv.(out=DIR,frames=15,timeout=120).binflight": a camera path, as a node that draws nothing, flies the
-/// viewer's camera, and lights the scene.
+/// viewer's camera.
 class ReaderWriterBinFlight : public osgDB::ReaderWriter {
 public:
     ReaderWriterBinFlight() {
@@ -301,27 +300,11 @@ public:
     }
 
 private:
-    // The viewer's own light, which shines along the line of sight, leaves a landscape seen at a low angle dark. This
-    // one takes its place and shines from the upper left behind the camera, wherever that looks. It has no position,
-    // and so does not widen the scene's bounds.
-    static osg::ref_ptr<osg::Node> light() {
-        const osg::ref_ptr<osg::Light> light = new osg::Light(0);
-        light->setPosition(osg::Vec4(-0.6f, 0.7f, 0.5f, 0.0f));
-        light->setAmbient(osg::Vec4(0.15f, 0.15f, 0.15f, 1.0f));
-        light->setDiffuse(osg::Vec4(0.9f, 0.9f, 0.9f, 1.0f));
-        light->setSpecular(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
-        osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-        source->setReferenceFrame(osg::LightSource::ABSOLUTE_RF);
-        source->setLight(light);
-        return source;
-    }
-
     // A named group with a callback, declared dynamic: osgUtil::Optimizer leaves it alone.
     static osg::ref_ptr<osg::Node> nodeOf(std::vector<CameraPose> path, const FlightOptions& options) {
         osg::ref_ptr<osg::Group> node = new osg::Group;
         node->setName("camera flight");
         node->setDataVariance(osg::Object::DYNAMIC);
-        node->addChild(light());
         node->setEventCallback(new CameraFlight(std::move(path), options));
         return node;
     }
