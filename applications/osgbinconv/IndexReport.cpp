@@ -5,16 +5,11 @@
 #include "Failure.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/TileFinder.h>
-#include <osgAnalyticBin/core/Ellipsoid.h>
-
-#include <osgDB/ReadFile>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <limits>
 
 namespace osgbinconv {
 
@@ -31,8 +26,8 @@ struct Statistics {
     std::size_t tiles = 0;
     std::size_t unknown = 0;
     Interval altitudes = Interval::none();
-    Interval finest = Interval::none();  // altitudes in the finest tiles
-    Interval widths = Interval::none();  // radians of longitude, or of a map's x
+    Interval finest = Interval::none();                          // altitudes in the finest tiles
+    double narrowest = std::numeric_limits<double>::infinity();  // radians of longitude, or of a map's x
 
     void add(const Entry& entry) {
         ++tiles;
@@ -44,9 +39,9 @@ struct Statistics {
         altitudes = altitudes.united(bin.altitude());
         const double width = bin.longitude().width();
         constexpr double kMuchNarrower = 0.75;
-        if (width < kMuchNarrower * widths.lower) finest = Interval::none();
-        widths.expandBy(width);
-        if (kMuchNarrower * width < widths.lower) finest = finest.united({entry.ownLow, bin.altitude().upper});
+        if (width < kMuchNarrower * narrowest) finest = Interval::none();
+        narrowest = std::min(narrowest, width);
+        if (kMuchNarrower * width < narrowest) finest = finest.united({entry.ownLow, bin.altitude().upper});
     }
 };
 
@@ -72,29 +67,8 @@ struct Differences {
     }
 };
 
-// Whether the database beside an index is a map, which the index does not tell. Returns: nullopt where its root file
-// has no tiles, or cannot be read.
-std::optional<bool> isOfMap(const std::string& indexFile, const BinIndex& index) {
-    const auto root = std::filesystem::path(indexFile).parent_path() / index.source().name;
-    if (!std::filesystem::is_regular_file(root)) return std::nullopt;
-    const osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(root.string());
-    if (!database) return std::nullopt;
-    const auto tiles = osgAnalyticBin::findTiles(*database);
-    if (tiles.empty() || !tiles.front().frame.ellipsoid) return std::nullopt;
-    return osgAnalyticBin::isMapPlane(*tiles.front().frame.ellipsoid);
-}
-
 std::string noIndexOf(const std::string& database) {
     return "\"" + database + "\" has no index; make one with osgbinconv --index";
-}
-
-void printWidths(const Statistics& all, bool isMap) {
-    constexpr double kDegreesPerRadian = 57.29577951308232087680;
-    const double unit = isMap ? osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian : kDegreesPerRadian;
-    // of a quadtree, whose tiles halve from level to level
-    const double levels = std::round(std::log2(all.widths.upper / all.widths.lower)) + 1.0;
-    std::printf("widths       %.6g .. %.6g %s, some %.0f levels\n", all.widths.lower * unit, all.widths.upper * unit,
-                isMap ? "m in a map" : "degrees of longitude", levels);
 }
 
 }  // namespace
@@ -119,10 +93,6 @@ void printIndex(const std::string& file) {
         std::printf("heights      %.0f .. %.0f m in the finest tiles\n", all.finest.lower, all.finest.upper);
         std::printf("bins         %.0f .. %.0f m: coarse tiles are flat, and sag below the ground\n",
                     all.altitudes.lower, all.altitudes.upper);
-        if (const std::optional<bool> isMap = isOfMap(path, *index))
-            printWidths(all, *isMap);
-        else
-            std::printf("widths       unknown without \"%s\" beside the index\n", index->source().name.c_str());
     }
     std::printf("size         %llu bytes, %.1f per tile\n", static_cast<unsigned long long>(bytes),
                 static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(all.tiles, 1)));

@@ -46,7 +46,7 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
-    app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
+    app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins");
     app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
     app.add_flag(
         "--keep-records", arguments.keepsRecords,

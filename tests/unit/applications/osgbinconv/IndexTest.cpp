@@ -176,17 +176,6 @@ TEST_P(MapIndex, AgreesWithItsMapAndIsNotTakenForAGlobe) {
     EXPECT_NE(tileFingerprint(tile), inMap);
 }
 
-TEST_P(MapIndex, IsPrintedInMetres) {
-    const auto expectPrinted = [&](const std::string& what) {
-        const Outcome printed = runBinconv({"--print", _file + ".bins"});
-        EXPECT_EQ(printed.code, 0);
-        EXPECT_EQ(printed.linesWith(what), 1) << printed.text;
-    };
-    expectPrinted("8000 .. 64000 m in a map, some 4 levels");
-    std::filesystem::remove(_file);
-    expectPrinted("unknown without \"map.osgb\"");
-}
-
 INSTANTIATE_TEST_SUITE_P(Makes, MapIndex, ::testing::Values("terrain", "polygonal"),
                          [](const auto& suite) { return std::string(suite.param); });
 
