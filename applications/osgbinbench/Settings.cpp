@@ -139,7 +139,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
                    "more options for the bins, comma-separated, such as skirts=all\n"
-                   "or horizon=-500 (metres; for the methods with +horizon)");
+                   "or horizon=-500 (metres; for the methods with +horizon); what the\nname of a method says stays");
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
     app.add_option("--json", settings.json, "file for the sums");
     app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
@@ -192,15 +192,7 @@ void check(const Settings& settings) {
     std::string error;
     if (settings.binOptions.find("method=") != std::string::npos)
         throw UsageError("--options: name methods in --methods instead of \"" + settings.binOptions + "\"");
-    const auto binOptions = cullOptionsFromText(settings.binOptions, error);
-    if (!binOptions) throw UsageError("--options: " + error);
-    if (binOptions->horizonUse == HorizonUse::Off)
-        throw UsageError("--options: leave +horizon out of the names in --methods instead of horizon=off");
-    if (!binOptions->edges || settings.binOptions.find("edges=") != std::string::npos)
-        throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
-    if (settings.binOptions.find("occlusion=") != std::string::npos)
-        throw UsageError("--options: name methods with or without +occlusion in --methods instead of \"" +
-                         settings.binOptions + "\"");
+    if (!cullOptionsFromText(settings.binOptions, error)) throw UsageError("--options: " + error);
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
     if (settings.draw && settings.frames == 0) throw UsageError("--draw: give --frames, how many are to be drawn");
     const bool isLive = settings.frames > 0 || settings.jumps;

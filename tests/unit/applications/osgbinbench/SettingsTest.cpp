@@ -56,9 +56,6 @@ TEST(Settings, WrongOnesNameTheOption) {
     const std::pair<Words, const char*> cases[] = {
         {{"--methods", "sphere,cube"}, "unknown method \"cube\""},
         {{"--methods", "sphere+horizon"}, "unknown method \"sphere+horizon\""},
-        {{"--options", "horizon=off"}, "--options: leave +horizon out"},
-        {{"--options", "edges=off"}, "--options: name methods with or without"},
-        {{"--options", "occlusion=on"}, "--options: name methods with or without +occlusion"},
         {{"--options", "horizont=3"}, "--options: unknown parameter"},
         {{"--options", "method=paper"}, "--options: "},
         {{"--size", "640"}, "--size: \"640\""},
@@ -152,6 +149,8 @@ TEST(CullMethod, PlainNamesCullByPlanesAloneAndSuffixesAddTheirTests) {
     defaults.index = IndexUse::On;  // what becomes complete meanwhile would change the figures
     EXPECT_EQ(optionsOf("bins"), defaults);
     EXPECT_EQ(optionsOf("bins", "skirts=all").skirts, SkirtUse::All);
+    EXPECT_EQ(optionsOf("bins", "occlusion=off").occlusion, OcclusionUse::Off);
+    EXPECT_EQ(optionsOf("quadratic+horizon", "edges=on,occlusion=on").occlusion, OcclusionUse::Off);
     EXPECT_TRUE(cullMethodFromName("bins").usesBins);
 }
 
