@@ -39,8 +39,7 @@ take() {
 # The guide: without lighting, so that colours are those of the legend
 take at=alps press=l press=B picture="$doc/viewer_bins.jpg" \
     press=F at=aside picture="$doc/viewer_frozen.jpg" \
-    at=above press=Q picture="$doc/viewer_quadratic.jpg" \
-    press=B press=B press=n picture="$doc/viewer_method.jpg" press=N picture="$doc/viewer_with.jpg"
+    at=above press=B press=B press=n picture="$doc/viewer_method.jpg" press=N picture="$doc/viewer_with.jpg"
 take at=alps press=l press=s press=s frames=25 at=peaks frames=25 at=aside frames=25 at=peaks frames=25 at=alps \
     frames=25 picture="$doc/viewer_stats.jpg" press=s press=s press=s press=h picture="$doc/viewer_help.jpg"
 

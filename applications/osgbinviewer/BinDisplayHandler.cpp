@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Inside, TileVerdict::Straddling, TileVerdict::Outside,
                                                TileVerdict::Hidden, TileVerdict::BeyondEdge, TileVerdict::Occluded};
-const osg::Vec4 kQuadraticColour(1.0F, 1.0F, 1.0F, 1.0F);
 const osg::Vec4 kTextColour(0.9F, 0.9F, 0.9F, 1.0F);
 
 bool isEnd(const SurveyedTile& tile) {
@@ -25,16 +24,13 @@ bool isEnd(const SurveyedTile& tile) {
 }
 
 // Faces of tiles that the traversal went through would hide those of the tiles within.
-osg::ref_ptr<osg::Node> makeNode(const SurveyedTile& tile, bool withQuadratic) {
+osg::ref_ptr<osg::Node> makeNode(const SurveyedTile& tile) {
     const core::Ellipsoid ellipsoid(tile.ellipsoid->getRadiusEquator(), tile.ellipsoid->getRadiusPolar());
     const osg::Vec4 colour = verdictColour(tile.verdict);
     osg::Vec4 faces = colour;
     faces.a() = isEnd(tile) ? BinDisplayHandler::kOpacity : 0.0F;
     osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform(tile.ecefToWorld);
-    node->addChild(makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Bin), faces, colour, isEnd(tile) ? 22 : 21));
-    if (withQuadratic)
-        node->addChild(
-            makeSlab(slabMesh(tile.bin.bin(), ellipsoid, SlabShape::Quadratic), osg::Vec4(), kQuadraticColour, 23));
+    node->addChild(makeSlab(slabMesh(tile.bin.bin(), ellipsoid), faces, colour, isEnd(tile) ? 22 : 21));
     return node;
 }
 
@@ -44,20 +40,13 @@ BinDisplayHandler::BinDisplayHandler() {
     addKey('B', "Show bins by verdict: where culling ends, all, none.", [this](osgViewer::View&) {
         _shown = _shown == Shown::Nothing ? Shown::Ends : _shown == Shown::Ends ? Shown::All : Shown::Nothing;
     });
-    addKey('Q', "Show the quadratic approximation of the bins.", [this](osgViewer::View&) {
-        _showsQuadratic = !_showsQuadratic;
-        if (_shown == Shown::Nothing) _shown = Shown::Ends;
-    });
 }
 
 osg::Node* BinDisplayHandler::slabOf(const SurveyedTile& tile) {
     Slab& slab = _known[tile.node];
     const bool isKnown = slab.node && slab.bin == tile.bin && slab.verdict == tile.verdict &&
-                         slab.isEnd == isEnd(tile) && slab.withQuadratic == _showsQuadratic &&
-                         slab.ecefToWorld == tile.ecefToWorld;
-    if (!isKnown)
-        slab = {tile.bin, tile.verdict, isEnd(tile), _showsQuadratic, tile.ecefToWorld, makeNode(tile, _showsQuadratic),
-                true};
+                         slab.isEnd == isEnd(tile) && slab.ecefToWorld == tile.ecefToWorld;
+    if (!isKnown) slab = {tile.bin, tile.verdict, isEnd(tile), tile.ecefToWorld, makeNode(tile), true};
     slab.isUsed = true;
     return slab.node.get();
 }
@@ -87,7 +76,6 @@ void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera
     if (!hasBins) lines.push_back({"no bin decides", kTextColour});
     for (std::size_t i = 0; hasBins && i < kVerdicts.size(); ++i)
         lines.push_back({std::to_string(numbers[i]) + " " + verdictName(kVerdicts[i]), verdictColour(kVerdicts[i])});
-    if (hasBins && _showsQuadratic) lines.push_back({"the quadratic approximation", kQuadraticColour});
     _legend->show(camera, lines);
 }
 

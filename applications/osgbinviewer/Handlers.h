@@ -112,8 +112,8 @@ private:
 };
 
 /// Key `B`: draws the bins that the view's camera tests as curved slabs, coloured by verdict: first those where its
-/// cull traversal ends (tiles culled or drawn), then also the edges of the others, then none. Key `Q`: the same bins'
-/// quadratic approximation as white lines. Bins of maps are not drawn.
+/// cull traversal ends (tiles culled or drawn), then also the edges of the others, then none. Bins of maps are
+/// not drawn.
 /// Cost: while shown, a TileSurvey for each frame.
 class BinDisplayHandler : public KeyHandler {
 public:
@@ -141,7 +141,6 @@ private:
         AnalyticBin bin;
         TileVerdict verdict;
         bool isEnd;
-        bool withQuadratic;
         osg::Matrixd ecefToWorld;
         osg::ref_ptr<osg::Node> node;
         bool isUsed;
@@ -152,7 +151,6 @@ private:
     void showLegend(const TileSurvey& survey, osg::Camera& camera);
 
     Shown _shown = Shown::Nothing;
-    bool _showsQuadratic = false;
     const osg::ref_ptr<osg::Group> _slabs = new osg::Group;
     const osg::ref_ptr<TextPanel> _legend = new TextPanel(TextPanel::Corner::BottomLeft);
     std::map<osg::ref_ptr<osg::Node>, Slab> _known;

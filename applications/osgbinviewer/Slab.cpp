@@ -7,7 +7,6 @@
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <osg/ColorMask>
 #include <osg/CullFace>
@@ -102,17 +101,13 @@ osg::ref_ptr<osg::Node> nearer(double share, osg::Node& node) {
 
 }  // namespace
 
-SlabMesh slabMesh(const core::GeodeticBin& of, const core::Ellipsoid& ellipsoid, SlabShape shape) {
+SlabMesh slabMesh(const core::GeodeticBin& of, const core::Ellipsoid& ellipsoid) {
     const std::array<int, 3> steps{stepsOf(of.latitude()), stepsOf(of.longitude()), 1};
     // of chords, both ways: the top lies outside, or flat terrain would come through
     const double sag = 0.126 * ellipsoid.equatorialRadius() *
                        (std::pow(of.latitude().width() / steps[0], 2) + std::pow(of.longitude().width() / steps[1], 2));
     const core::GeodeticBin bin = of.withAltitude({of.altitude().lower, of.altitude().upper + sag});
     const core::GeodeticMapping mapping(ellipsoid);
-    if (shape == SlabShape::Quadratic) {
-        const core::QuadraticBin model(mapping, core::parameterBox(bin));
-        return meshOf([&](const glm::dvec3& unit) { return model.modelPoint(unit); }, steps);
-    }
     const auto at = [](const core::Interval& interval, double unit) {
         return interval.middle() + 0.5 * unit * interval.width();
     };
@@ -143,7 +138,7 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
         slab->addChild(nearer(kInFront, *placed(place, {depths, colours, beyond})));
     }
     const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges, edgesBin);
-    // Edges of neighbours and of the quadratic approximation nearly coincide: the last one drawn wins along its length.
+    // Edges of neighbours nearly coincide: the last one drawn wins along its length.
     // What is clamped to the far plane has no lines.
     lines->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
     slab->addChild(nearer(2.0 * kInFront, *placed(place, {lines})));

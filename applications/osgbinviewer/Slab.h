@@ -22,17 +22,11 @@ struct SlabMesh {
     std::vector<unsigned int> lines;      ///< two indices each: the bin's twelve edges
 };
 
-/// Which surface of a bin.
-enum class SlabShape {
-    Bin,       ///< the box in latitude, longitude and altitude itself
-    Quadratic  ///< its second-order Taylor model: what a quadratic bin tests; wide tiles are culled by the closed form
-};
-
 /// The six curved faces of a bin, a vertex every degree or finer; triangles are counterclockwise from outside.
-/// Guarantee: the top of SlabShape::Bin lies outside the bin, by 500 m at most, the sag of chords of a degree both
+/// Guarantee: the top lies outside the bin, by 500 m at most, the sag of chords of a degree both
 /// ways; all other vertices are on the bin's surface to the rounding of float; tests: Slab.*. Requires: a bin that is
 /// not empty.
-[[nodiscard]] SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape);
+[[nodiscard]] SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid);
 
 /// Faces that look towards the eye, translucent where the colour is, and edges, in ECEF: in front of terrain that they
 /// coincide with. Of several slabs, the nearest face alone is seen. `edgesBin`: render bin of the edges, from 21 on.

@@ -36,7 +36,7 @@ const core::GeodeticBin kBins[] = {binDeg({10, 11}, {20, 21}, {-500, 4000}),
 
 TEST(Slab, HoldsTheBinButForTheSagOfItsSides) {
     for (const core::GeodeticBin& bin : kBins) {
-        const SlabMesh mesh = slabMesh(bin, kEarth, SlabShape::Bin);
+        const SlabMesh mesh = slabMesh(bin, kEarth);
         const core::ExactGeodeticBin exact(kEarth, bin);
         for (int i = 0; i < 200; ++i) {
             const double z = -1.0 + 2.0 * (i + 0.5) / 200.0;
@@ -111,7 +111,7 @@ osg::ref_ptr<osg::Node> makeSea(const core::GeodeticBin& bin) {
 TEST_F(SlabPicture, LiesOnFlatTerrainFromFarAndNear) {
     const core::GeodeticBin bin = binDeg({22.5, 45.0}, {0.0, 22.5}, {0.0, 0.0});
     const osg::Vec4 red(1.0F, 0.0F, 0.0F, 1.0F);
-    const osg::ref_ptr<osg::Node> slab = makeSlab(slabMesh(bin, kEarth, SlabShape::Bin), red, red, 21);
+    const osg::ref_ptr<osg::Node> slab = makeSlab(slabMesh(bin, kEarth), red, red, 21);
     const osg::ref_ptr<osg::Node> sea = makeSea(bin);
     for (const auto& [altitude, away] : {std::pair(1e7, 0.0), {5e5, 1e6}, {5e4, 1e5}, {1e4, 3e4}}) {
         lookAt(33.7, 11.3, altitude, away);
