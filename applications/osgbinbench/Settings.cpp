@@ -4,7 +4,6 @@
 #include "Settings.h"
 
 #include "CommandLine.h"
-#include "CsvTable.h"
 #include "CullMethod.h"
 #include "Failure.h"
 #include "Figures.h"
@@ -17,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <unistd.h>
 
@@ -26,18 +26,7 @@ using support::UsageError;
 
 namespace {
 
-using Model = osgViewer::ViewerBase::ThreadingModel;
-
 constexpr int kLargestPicture = 8192;
-
-Model threadingFromName(const std::string& name) {
-    std::string allowed;
-    for (const auto& [model, known] : flight::kThreadingNames) {
-        if (name == known) return model;
-        allowed += (allowed.empty() ? "" : ", ") + std::string(known);
-    }
-    throw UsageError("--threading: unknown model \"" + name + "\"; use one of " + allowed);
-}
 
 void takeSize(const std::string& text, Settings& settings) {
     int width = 0;
@@ -60,15 +49,6 @@ long lastLevelKibibytes() {
         if (file >> size) kibibytes = std::max(kibibytes, size);
     }
     return kibibytes > 0 ? kibibytes : sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024;
-}
-
-// Seconds; 0: OSG's own rule.
-double expiryFrom(const std::string& text, const std::string& binOptions) {
-    std::string error;
-    if (text.empty()) return cullOptionsFromText(binOptions, error)->expiry;
-    const std::optional<double> seconds = text == "osg" ? std::optional(0.0) : flight::numberFrom(text);
-    if (seconds && *seconds >= 0.0 && *seconds <= 86400.0) return *seconds;
-    throw UsageError("--expiry: " + text + " is neither osg nor seconds from 0 to 86400");
 }
 
 template <class Columns>
@@ -122,8 +102,7 @@ std::string footer() {
 
 struct Words {
     std::string size = "1280x720";
-    std::string threading = "SingleThreaded";
-    std::string expiry;
+    std::optional<double> expiry;
 };
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
@@ -152,9 +131,12 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "factor for the heights of an osgTerrain database (default 1)")
         ->check(support::within(0.001, 1000.0));
     app.add_option("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
-    app.add_option("--threading", words.threading,
+    std::map<std::string, osgViewer::ViewerBase::ThreadingModel> models;
+    for (const auto& [model, name] : flight::kThreadingNames) models[name] = model;
+    app.add_option("--threading", settings.threading,
                    "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
-                   "CullThreadPerCameraDrawThreadPerContext");
+                   "CullThreadPerCameraDrawThreadPerContext")
+        ->transform(CLI::CheckedTransformer(models).description(""));
     app.add_option(
            "--repeats", settings.repeats,
            "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold caches "
@@ -176,9 +158,11 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)")
         ->check(support::within(0.1, 10000.0));
     app.add_option(
-        "--expiry", words.expiry,
-        "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its own "
-        "rule; for flights\n(default as bins: 3, or expiry= of --options)");
+           "--expiry", words.expiry,
+           "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its own "
+           "rule; for flights\n(default as bins: 3, or expiry= of --options)")
+        ->transform(CLI::Transformer({{"osg", "0"}}).description(""))
+        ->check(support::within(0.0, 86400.0));
     app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load (default 120)")
         ->check(support::within(0.001, 86400.0));
 }
@@ -223,11 +207,11 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     declare(app, settings, words);
     if (!support::parseCommandLine(app, argc, argv)) return false;
     takeSize(words.size, settings);
-    settings.threading = threadingFromName(words.threading);
     check(settings);
     const bool isAtPoses = settings.frames == 0 && !settings.jumps;
     if (settings.paths.empty() && isAtPoses && settings.report.empty()) settings.report = "report.html";
-    settings.expiry = expiryFrom(words.expiry, settings.binOptions);
+    std::string error;
+    settings.expiry = words.expiry.value_or(cullOptionsFromText(settings.binOptions, error)->expiry);
     return true;
 }
 

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What osgbinbench makes of its figures: JSON, CSV, tables, diagrams, which need gnuplot to be drawn, and the three
-//
+// sentences.
 
 #include "Failure.h"
 #include "Output.h"
-#include "TextFile.h"
 
 #include <gtest/gtest.h>
 
@@ -108,18 +107,6 @@ TEST(Output, TablesHaveRatiosToWhatWasMeasuredAndSumsOfSeveralPaths) {
                 {"sums by path", "over_oracle        0.000   3.000   1.000", "cold_over_oracle   5.000   2.500   1.000",
                  "    0.250         1.000        2.000             1.000\n"},
                 {});
-}
-
-TEST(Output, AFileThatCannotBeWrittenStaysAsItWas) {
-    const test::TemporaryFolder folder;
-    const std::string file = folder.write("sums.json", "old");
-    std::filesystem::create_directory(file + ".tmp");  // stands in the way
-    EXPECT_THROW(support::writeFile(file, "new"), Failure);
-    EXPECT_EQ(test::textOfFile(file), "old");
-    std::filesystem::remove(file + ".tmp");
-    support::writeFile(file, "new");
-    EXPECT_EQ(test::textOfFile(file), "new");
-    EXPECT_FALSE(std::filesystem::exists(file + ".tmp"));
 }
 
 std::vector<Diagram> diagrams() {
