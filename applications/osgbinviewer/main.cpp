@@ -67,10 +67,6 @@ void addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings, os
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
     viewer.addEventHandler(
         new osgViewer::RecordCameraPathHandler(settings.record.empty() ? "saved_animation.path" : settings.record));
-    if (!settings.record.empty()) {
-        viewer.getEventQueue()->keyPress('z');
-        viewer.getEventQueue()->keyRelease('z');
-    }
     viewer.addEventHandler(new osgViewer::ScreenCaptureHandler);
     viewer.addEventHandler(new osgViewer::HelpHandler(&usage));
     const osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
@@ -157,6 +153,10 @@ ExitCode show(osg::ArgumentParser& arguments) {
     if (!settings.steps.empty()) return runSteps(viewer, settings);
     realize(viewer);
     viewer.setCameraManipulator(makeManipulator(settings, viewer));
+    if (!settings.record.empty()) {
+        viewer.getEventQueue()->keyPress('z');
+        viewer.getEventQueue()->keyRelease('z');
+    }
     return viewer.run() == 0 ? kSucceeded : support::kFailed;
 }
 

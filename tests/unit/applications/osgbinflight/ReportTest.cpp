@@ -75,7 +75,7 @@ TEST(Report, NamesThePoseThatDiffersAndPrintsSumsAndRatios) {
     std::ostringstream text;
     print(text, tablesOf(flown));
     for (const char* part :
-         {"sums over poses", "ratio to sphere", "kept_tiles          2.500   1.000      0.250  1.000"})
+         {"sums over poses", "ratio to sphere", "kept_tiles        2.500   1.000      0.250  1.000"})
         EXPECT_NE(text.str().find(part), std::string::npos) << text.str();
 }
 
