@@ -8,7 +8,6 @@
 #include <osg/CoordinateSystemNode>
 
 #include <atomic>
-#include <mutex>
 
 namespace osgAnalyticBin::bench {
 
@@ -34,14 +33,11 @@ protected:
     void treat(osg::Node& graph) override;
 
 private:
-    void fill(osg::Node& graph);
-
     std::atomic<Clusters> _clusters{Clusters::Keep};
     std::atomic<double> _expiry{0.0};
-    std::mutex _mutex;
-    /// Of the globe whose pages are read; null before its root file. A copy: the globe may come from a plugin, which
-    /// the Registry unloads before its callbacks are gone.
-    osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
+    /// Whose pages are read. A copy: the globe may come from a plugin, which the Registry unloads before its callbacks
+    /// are gone.
+    osg::ref_ptr<const osg::EllipsoidModel> _globe;
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -107,6 +107,7 @@ void MethodScene::load() {
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
+    treatFiles(_globe.ellipsoid);
     _camera->addChild(root);
     _scene = new OwnScene;
     _scene->setSceneData(root);

@@ -9,6 +9,7 @@
 #include <osgDB/FileNameUtils>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
