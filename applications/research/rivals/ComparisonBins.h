@@ -15,7 +15,7 @@ namespace osgAnalyticBin::rivals {
 
 /// The rule of [JJ] as published, for comparison only: the second-order model over the box grown by a factor, its
 /// range taken over nine points (the eight corners and the stationary point), no remainder.
-/// Guarantee: none. It culls visible tiles and accepts invisible ones; tests: PaperBin.MissesTheMaximumThisOften.
+/// Guarantee: none. It culls visible tiles and accepts invisible ones: osgbinpaper counts them.
 class PaperBin final {
 public:
     /// Factor of all three half sizes.
@@ -33,7 +33,7 @@ private:
 };
 
 /// The test of the eight mapped corners, for comparison only.
-/// Guarantee: none; a curved bin bulges past its corners. tests: PaperBin.MissesTheMaximumThisOften.
+/// Guarantee: none; a curved bin bulges past its corners.
 class CornersBin final {
 public:
     /// Cost: eight evaluations of the mapping.

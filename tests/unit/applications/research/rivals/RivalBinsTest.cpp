@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <support/Numbers.h>
@@ -176,69 +175,6 @@ TEST(CornersBin, IsTheRuleOfTheEightCorners) {
         return std::pair(cornerRange(bin, plane),
                          CornersBin(GeodeticMapping(wgs84()), core::parameterBox(bin)).classify(plane));
     });
-}
-
-struct Misses {
-    int count = 0;
-    double largest = 0.0;
-
-    void note(double missedBy) {
-        if (missedBy <= kTie) return;
-        ++count;
-        largest = std::max(largest, missedBy);
-    }
-};
-
-// How often, and by how much, a rule's maximum stays below the true one over random directions.
-struct MissTable {
-    Misses ninePoints, grown, corners;
-};
-
-MissTable missesAt(Random& random, int level, int trials) {
-    MissTable misses;
-    for (int trial = 0; trial < trials; ++trial) {
-        const BinOracle oracle(wgs84(), randomTile(random, level, kTerrainAltitudes));
-        const ParameterBox box = core::parameterBox(oracle.bin());
-        const Plane plane{random.direction(), 0.0};
-        const double truth = static_cast<double>(oracle.range(plane.normal).upper);
-        misses.ninePoints.note(truth - ninePointRange(box, 1.0, plane).upper);
-        misses.grown.note(truth - ninePointRange(box, PaperBin::kDefaultGrowth, plane).upper);
-        misses.corners.note(truth - cornerRange(oracle.bin(), plane).upper);
-    }
-    return misses;
-}
-
-// The maximum of the model itself over the box, without what the model leaves out.
-Misses modelMissesAt(Random& random, int level, int trials) {
-    Misses misses;
-    for (int trial = 0; trial < trials; ++trial) {
-        const ParameterBox box = core::parameterBox(randomTile(random, level, kTerrainAltitudes));
-        const Quadratic q = QuadraticBin(GeodeticMapping(wgs84()), box).distanceModel({random.direction(), 0.0});
-        misses.note(core::exactRange(q).upper - ninePointRange(q).upper);
-    }
-    return misses;
-}
-
-TEST(PaperBin, MissesTheMaximumThisOften) {
-    constexpr int kTrials = 100000;
-    Random random(82);
-    const auto percent = [](const Misses& m) { return 100.0 * m.count / kTrials; };
-    std::printf("true maximum missed, %d random directions a level, altitudes %.0f .. %.0f m\n", kTrials,
-                kTerrainAltitudes.lower, kTerrainAltitudes.upper);
-    std::printf("  tile deg | model's maximum, 9 points | 9 points vs truth  | grown by 1.1       | 8 corners\n");
-    for (int level = 0; level <= 4; ++level) {
-        const Misses model = modelMissesAt(random, level, kTrials);
-        const MissTable m = missesAt(random, level, kTrials);
-        std::printf("  %8.4f | %6.2f %%  %10.1f m     | %6.2f %% %9.1f m | %6.2f %% %9.1f m | %6.2f %% %9.1f m\n",
-                    std::ldexp(kRootTileDeg, -level), percent(model), model.largest, percent(m.ninePoints),
-                    m.ninePoints.largest, percent(m.grown), m.grown.largest, percent(m.corners), m.corners.largest);
-        if (level == 0) {
-            EXPECT_GT(percent(model), 4.0);
-            EXPECT_GT(percent(m.grown), 2.0);
-            EXPECT_GT(m.grown.largest, 100e3);
-            EXPECT_GT(percent(m.corners), 4.0);
-        }
-    }
 }
 
 constexpr double kPointDepth = 11000.0;
