@@ -74,8 +74,7 @@ TEST(Report, NamesThePoseThatDiffersAndPrintsSumsAndRatios) {
     EXPECT_EQ(sumOf(flown.methods[2])["cull_ms"], 3.0);
     std::ostringstream text;
     print(text, tablesOf(flown));
-    for (const char* part :
-         {"sums over poses", "ratio to sphere", "kept_tiles        2.500   1.000      0.250  1.000"})
+    for (const char* part : {"sums over poses", "ratio to sphere", "kept_tiles        2.500   1.000      0.250  1.000"})
         EXPECT_NE(text.str().find(part), std::string::npos) << text.str();
 }
 
