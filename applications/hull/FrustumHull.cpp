@@ -94,11 +94,4 @@ void ReverseBin::addFace(const core::ExactGeodeticBin& exact, const glm::dvec3& 
     _faces[_faceCount++] = {-outward, exact.distanceRange({outward, 0.0}).upper};
 }
 
-bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept {
-    if (frustum.cornerCount() == 0) return false;
-    for (std::size_t i = 0; i < bin.faceCount(); ++i)
-        if (frustum.isBehind(bin.face(i), bin.reach())) return true;
-    return false;
-}
-
 }  // namespace osgAnalyticBin::hull

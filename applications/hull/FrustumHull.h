@@ -86,9 +86,15 @@ private:
     double _reach;
 };
 
-/// Guarantee: true only if no point of the bin, margin included, is inside all of the frustum's planes;
-/// tests: Soundness.HasNoFalseVerdict.
-/// Cost: up to five faces times eight corners, three multiplications each; most faces end at their first corner.
-[[nodiscard]] bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept;
+/// The usual reverse test: whether the frustum is wholly beyond one face of a body, such as a ReverseBin.
+/// Guarantee: true only if no point of the bin that the body is made for, margin included, is inside all of the
+/// frustum's planes; tests: Soundness.HasNoFalseVerdict. Cost: up to so many faces times eight corners, three
+/// multiplications each; most faces end at their first corner.
+template <class Body>
+[[nodiscard]] bool isSeparated(const Body& body, const FrustumHull& frustum) noexcept {
+    for (std::size_t i = 0; i < body.faceCount() && frustum.cornerCount() > 0; ++i)
+        if (frustum.isBehind(body.face(i), body.reach())) return true;
+    return false;
+}
 
 }  // namespace osgAnalyticBin::hull

@@ -111,11 +111,4 @@ BoxBin::BoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, d
 OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
     : Box(eastNorthUp(ellipsoid, bin.center()), ellipsoid, bin, margin) {}
 
-bool isSeparated(const Box& box, const FrustumHull& frustum) noexcept {
-    if (frustum.cornerCount() == 0) return false;
-    for (std::size_t i = 0; i < Box::kFaces; ++i)
-        if (frustum.isBehind(box.face(i), box.reach())) return true;
-    return false;
-}
-
 }  // namespace osgAnalyticBin::rivals

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "FrustumHull.h"
-
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
@@ -15,8 +13,6 @@
 #include <cstddef>
 
 namespace osgAnalyticBin::rivals {
-
-using hull::FrustumHull;
 
 /// A box around a geodetic bin, as other programs cull by: for comparison, yet sound. It touches the bin on all six
 /// sides, to 160 epsilon times the distance of its farthest point from the earth's centre, 0.3 micrometres on earth;
@@ -29,7 +25,7 @@ public:
     [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
     /// How many faces a box has.
-    static constexpr std::size_t kFaces = 6;
+    [[nodiscard]] static constexpr std::size_t faceCount() noexcept { return 6; }
 
     /// Points into the box; holds the bin, margin included.
     [[nodiscard]] core::Plane face(std::size_t i) const noexcept;
@@ -63,11 +59,5 @@ class OrientedBoxBin final : public Box {
 public:
     OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin = 0.0) noexcept;
 };
-
-/// The usual reverse test: whether the frustum is wholly beyond one face of the box.
-/// Guarantee: true only if no point of the bin, margin included, is inside all of the frustum's planes;
-/// test: Soundness.HasNoFalseVerdict.
-/// Cost: up to six faces times eight corners; most faces end at their first corner.
-[[nodiscard]] bool isSeparated(const Box& box, const FrustumHull& frustum) noexcept;
 
 }  // namespace osgAnalyticBin::rivals

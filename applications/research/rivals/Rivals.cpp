@@ -3,6 +3,7 @@
 
 #include "Rivals.h"
 
+#include "FrustumHull.h"
 #include "Nodes.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
@@ -17,6 +18,8 @@
 #include <map>
 
 namespace osgAnalyticBin::rivals {
+
+using hull::FrustumHull;
 
 namespace {
 

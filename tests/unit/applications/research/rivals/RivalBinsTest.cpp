@@ -7,6 +7,7 @@
 
 #include "BoxBins.h"
 #include "ComparisonBins.h"
+#include "FrustumHull.h"
 #include "HorizonPoint.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
@@ -67,7 +68,7 @@ TYPED_TEST(BoxBins, TouchTheBinOnAllSides) {
     for (int trial = 0; trial < 20000; ++trial) {
         const BinOracle oracle(randomEllipsoid(random), randomBin(random));
         const TypeParam box(oracle.ellipsoid(), oracle.bin());
-        for (std::size_t i = 0; i < TypeParam::kFaces; ++i) {
+        for (std::size_t i = 0; i < TypeParam::faceCount(); ++i) {
             const Real gap = oracle.distanceRange(box.face(i)).lower;
             ASSERT_GE(gap, 0) << "trial " << trial << " face " << i;
             ASSERT_LE(gap, kBoxTightness * farthest(oracle)) << "trial " << trial << " face " << i;
