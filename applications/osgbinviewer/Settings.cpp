@@ -22,6 +22,9 @@ void describe(osg::ApplicationUsage& usage) {
                                "Record the camera for osgbinbench from the start; key z stops and starts.");
     usage.addCommandLineOption("-p <file.path>", "Fly along an animation path of OpenSceneGraph.");
     usage.addCommandLineOption("--speed <factor>", "How fast animation paths are flown.");
+    usage.addCommandLineOption("--traffic <number>",
+                               "Scatter so many models about the camera, and count those that terrain does not hide; "
+                               "keys T and G.");
     usage.addCommandLineOption("--poses <file.csv>", "Camera path with the poses that --steps names.");
     usage.addCommandLineOption(
         "--steps <text>",
@@ -58,6 +61,7 @@ Settings settingsFrom(osg::ArgumentParser& arguments) {
     readLast("--poses", settings.poses);
     readLast("--steps", settings.steps);
     readLast("--speed", settings.speed);
+    readLast("--traffic", settings.traffic);
     std::string path;
     while (arguments.read("-p", path)) settings.animationPaths.push_back(path);
     for (int i = 1; i < arguments.argc(); ++i) {

@@ -28,6 +28,7 @@ struct Settings {
     std::string steps;
     std::vector<std::string> animationPaths;
     double speed = 1.0;
+    unsigned int traffic = 0;  ///< models
 };
 
 /// Names the options for --help.

@@ -7,6 +7,7 @@
 #include "ModuleFolder.h"
 #include "PathFiles.h"
 #include "Settings.h"
+#include "Traffic.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -148,7 +149,9 @@ ExitCode show(osg::ArgumentParser& arguments) {
         for (const viewer::NamedDatabase& database : settings.databases) scene->addChild(readDatabase(database));
     }
     if (!error.empty()) throw std::runtime_error(error);
-    viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
+    const bool isAlone = scene->getNumChildren() == 1 && settings.traffic == 0;
+    viewer.setSceneData(isAlone ? scene->getChild(0) : scene.get());
+    if (settings.traffic > 0) viewer.addEventHandler(new viewer::TrafficHandler(*scene, settings.traffic));
     addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings);
     realize(viewer);

@@ -4,8 +4,9 @@
 // Models about the poses of camera paths over a database: how many have a pixel, how many are drawn, how long a frame
 // takes. Exit code: 1 where a model that has a pixel is left out, or a picture differs.
 
+#include "Traffic.h"
+
 #include "FrameCapture.h"
-#include "Models.h"
 #include "PathFiles.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -56,11 +57,11 @@ void paint(osg::Node& node, unsigned int colour) {
 
 class Bench {
 public:
-    explicit Bench(const std::string& database) : _models(kModels) {
+    explicit Bench(const std::string& database) : _traffic(kModels) {
         _database = osgDB::readRefNodeFile(database);
         if (!_database) throw std::runtime_error(database + " cannot be read");
         _scene->addChild(_database);
-        _scene->addChild(&_models.group());
+        _scene->addChild(&_traffic.models());
         _viewer.setSceneData(_scene);
         _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
         _viewer.setUpViewInWindow(0, 0, kWidth, kHeight);
@@ -77,7 +78,7 @@ public:
         osg::Camera& camera = *_viewer.getCamera();
         flight::placeCamera(camera, pose, flight::globeOf(*_database));
         drawUntilIdle();
-        _models.scatter(*_database, osg::Vec3d() * camera.getInverseViewMatrix(), kReach);
+        _traffic.scatter(*_database, osg::Vec3d() * camera.getInverseViewMatrix(), kReach);
         const Picture without = look(false), with = look(true);
         std::size_t lost = 0;
         for (const unsigned int model : without.models) lost += with.models.count(model) == 0;
@@ -128,7 +129,8 @@ private:
             if (isPainted) paint(node, colour);
         };
         set(*_database, 0);
-        for (unsigned int i = 0; i < _models.group().getNumChildren(); ++i) set(*_models.group().getChild(i), i + 1);
+        for (unsigned int i = 0; i < _traffic.models().getNumChildren(); ++i)
+            set(*_traffic.models().getChild(i), i + 1);
     }
 
     static std::set<unsigned int> modelsIn(const osg::Image* image) {
@@ -146,7 +148,7 @@ private:
     }
 
     Picture look(bool asks) {
-        _models.setAsking(asks);
+        _traffic.setAsking(asks);
         drawUntilIdle();
         Picture picture;
         (void)drawOnce();
@@ -155,9 +157,9 @@ private:
         for (int i = 0; i < kTimed; ++i) (void)drawOnce();
         picture.milliseconds = osg::Timer::instance()->delta_m(begin, osg::Timer::instance()->tick()) / kTimed;
         setPainted(true);
-        (void)_models.takeDrawn();
+        (void)_traffic.takeDrawn();
         picture.image = drawOnce();
-        picture.drawn = _models.takeDrawn();
+        picture.drawn = _traffic.takeDrawn();
         picture.models = modelsIn(picture.image.get());
         setPainted(false);
         return picture;
@@ -165,7 +167,7 @@ private:
 
     osg::ref_ptr<osg::Node> _database;
     const osg::ref_ptr<osg::Group> _scene = new osg::Group;
-    test::Models _models;
+    viewer::Traffic _traffic;
     osgViewer::Viewer _viewer;
     const osg::ref_ptr<flight::FrameCapture> _capture = new flight::FrameCapture;
     std::size_t _inView = 0, _withPixel = 0, _drawn = 0;

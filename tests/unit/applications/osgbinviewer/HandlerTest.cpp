@@ -6,9 +6,11 @@
 // (Xvfb will do); skipped where no graphics context can be made.
 
 #include "Handlers.h"
+#include "Traffic.h"
 #include "ViewTools.h"
 #include "ViewerFixture.h"
 
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
@@ -89,6 +91,34 @@ TEST_F(Handlers, SwitchToWhatAFreshViewerShowsWithTheMethod) {
         showOverlay(true);
     }
     EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
+}
+
+TEST_F(Handlers, ScatterModelsThatTerrainMayHide) {
+    constexpr unsigned int kModels = 40;
+    const osg::ref_ptr<osg::Group> scene = wrapScene();
+    _viewer.addEventHandler(new TrafficHandler(*scene, kModels));
+    look(_viewer, 1.0);
+    drawUntilIdle(_viewer);
+    _viewer.frame();
+    const osg::Group& models = *scene->getChild(1)->asGroup();
+    ASSERT_EQ(models.getNumChildren(), kModels);
+    const auto asks = [&] {
+        const osg::Callback* const callback = models.getChild(0)->getCullCallback();
+        return dynamic_cast<const HiddenByTerrainCallback*>(callback) != nullptr;
+    };
+    EXPECT_TRUE(asks());
+    press('G');
+    EXPECT_FALSE(asks());
+    press('G');
+    EXPECT_TRUE(asks());
+    // anew about another place
+    const osg::Vec3d before = models.getBound().center();
+    look(_viewer, -1.0);
+    _viewer.getCamera()->setViewMatrix(osg::Matrixd::translate(0.0, 1e5, 0.0) * _viewer.getCamera()->getViewMatrix());
+    press('T');
+    _viewer.frame();
+    ASSERT_EQ(models.getNumChildren(), kModels);
+    EXPECT_GT((models.getBound().center() - before).length(), 5e4);
 }
 
 // What a frozen camera draws, and where: CameraCullingTest.cpp.

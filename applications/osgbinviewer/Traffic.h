@@ -3,20 +3,20 @@
 
 #pragma once
 
-#include <osg/Group>
+#include "Handlers.h"
 
 #include <atomic>
 
-namespace osgAnalyticBin::test {
+namespace osgAnalyticBin::viewer {
 
 /// Models that stand on terrain or fly up to 300 m above it, each with a HiddenByTerrainCallback.
-class Models {
+class Traffic {
 public:
     /// `count`: of models.
-    explicit Models(unsigned int count);
+    explicit Traffic(unsigned int count);
 
     /// The models, to be added to a scene behind its database. Empty until scatter().
-    [[nodiscard]] osg::Group& group() { return *_models; }
+    [[nodiscard]] osg::Group& models() { return *_models; }
 
     /// Puts the models at random places up to `reach` metres from the eye, the same ones every time. Ground is what is
     /// loaded of the scene. Between frames only. Cost: one intersection with the scene for each model.
@@ -37,6 +37,24 @@ private:
     const unsigned int _count;
     const osg::ref_ptr<osg::Group> _models = new osg::Group;
     const osg::ref_ptr<Drawn> _drawn = new Drawn;
+    bool _asks = true;
 };
 
-}  // namespace osgAnalyticBin::test
+/// Scatters models about the camera once the terrain there is loaded, and says how many of them are drawn. Key `T`
+/// scatters them anew, `G` stops and starts that terrain hides them.
+class TrafficHandler : public KeyHandler {
+public:
+    /// Adds `count` models to the scene, behind all that is there.
+    TrafficHandler(osg::Group& scene, unsigned int count);
+
+protected:
+    void draw(osgViewer::View& view, osg::Camera& camera) override;
+
+private:
+    Traffic _traffic;
+    bool _isDue = true;
+    bool _asks = true;
+    const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::BottomRight);
+};
+
+}  // namespace osgAnalyticBin::viewer

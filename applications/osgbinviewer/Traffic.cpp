@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Models.h"
+#include "Traffic.h"
 
 #include "CameraView.h"
 
@@ -13,14 +13,16 @@
 #include <osg/NodeCallback>
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
+#include <osgDB/DatabasePager>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
-namespace osgAnalyticBin::test {
+namespace osgAnalyticBin::viewer {
 
-class Models::Counter : public osg::NodeCallback {
+class Traffic::Counter : public osg::NodeCallback {
 public:
     explicit Counter(Drawn& drawn) : _drawn(&drawn) { setTraversesAlways(*this); }
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
@@ -35,6 +37,7 @@ private:
 namespace {
 
 constexpr double kHighestModel = 300.0;  // metres above ground
+constexpr double kFarthest = 30e3;       // metres, of models about the camera
 constexpr double kReach = 2e4;           // metres up and down, where ground is looked for
 
 // An aircraft, some 30 m long, that flies to the north: a few hundred triangles.
@@ -56,9 +59,9 @@ osg::ref_ptr<osg::Geode> makeAircraft() {
 
 }  // namespace
 
-Models::Models(unsigned int count) : _count(count) {}
+Traffic::Traffic(unsigned int count) : _count(count) {}
 
-void Models::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
+void Traffic::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
     const flight::Globe globe = flight::globeOf(scene);
     const osg::ref_ptr<osg::Geode> aircraft = makeAircraft();
     _models->removeChildren(0, _models->getNumChildren());
@@ -86,9 +89,11 @@ void Models::scatter(osg::Node& scene, const osg::Vec3d& eye, double reach) {
         model->addChild(aircraft);
         _models->addChild(model);
     }
+    setAsking(_asks);
 }
 
-void Models::setAsking(bool asks) {
+void Traffic::setAsking(bool asks) {
+    _asks = asks;
     for (unsigned int i = 0; i < _models->getNumChildren(); ++i) {
         osg::Node& model = *_models->getChild(i);
         model.setCullCallback(nullptr);
@@ -97,4 +102,29 @@ void Models::setAsking(bool asks) {
     }
 }
 
-}  // namespace osgAnalyticBin::test
+TrafficHandler::TrafficHandler(osg::Group& scene, unsigned int count) : _traffic(count) {
+    scene.addChild(&_traffic.models());
+    addKey('T', "Scatter the models of --traffic about the camera.", [this](osgViewer::View&) { _isDue = true; });
+    addKey('G', "Let terrain hide the models of --traffic, or not.", [this](osgViewer::View&) {
+        _asks = !_asks;
+        _traffic.setAsking(_asks);
+    });
+}
+
+void TrafficHandler::draw(osgViewer::View& view, osg::Camera& camera) {
+    const osgDB::DatabasePager* const pager = view.getDatabasePager();
+    const bool isLoaded = !pager || !(pager->getRequestsInProgress() || pager->requiresUpdateSceneGraph());
+    const unsigned int drawn = _traffic.takeDrawn();
+    if (_isDue && isLoaded && view.getFrameStamp()->getFrameNumber() > 1) {
+        _traffic.models().removeChildren(0, _traffic.models().getNumChildren());
+        _traffic.scatter(*view.getSceneData(), osg::Vec3d() * camera.getInverseViewMatrix(), kFarthest);
+        _isDue = false;
+        return;
+    }
+    const unsigned int models = _traffic.models().getNumChildren();
+    const std::string text = std::to_string(drawn) + " of " + std::to_string(models) + " models drawn" +
+                             (_asks ? "" : ", whatever terrain hides");
+    _panel->show(camera, {{text, osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f)}});
+}
+
+}  // namespace osgAnalyticBin::viewer
