@@ -19,15 +19,13 @@ constexpr core::Interval kNoHeight{0.0, 0.0};
 
 using Places = std::vector<core::GeodeticBin>;
 
-// The length of an interval that others, which are within it, leave open.
-double openLength(const core::Interval& whole, std::vector<core::Interval>& intervals) {
-    std::sort(intervals.begin(), intervals.end(),
-              [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
+// The length of a range of longitudes that places, from west to east, leave open. They are within it.
+double openLength(const core::Interval& whole, const std::vector<const core::GeodeticBin*>& places) {
     double length = 0.0;
     double end = whole.lower;
-    for (const core::Interval& interval : intervals) {
-        length += std::max(0.0, interval.lower - end);
-        end = std::max(end, interval.upper);
+    for (const core::GeodeticBin* const place : places) {
+        length += std::max(0.0, place->longitude().lower - end);
+        end = std::max(end, place->longitude().upper);
     }
     return length + std::max(0.0, whole.upper - end);
 }
@@ -38,23 +36,29 @@ double areaOf(const core::GeodeticBin& place) {
 }
 
 // What places within a whole one leave open, strip by strip from the south, between the latitudes at which one begins
-// or ends. It is added up by itself: a small hole is lost in the rounding of large areas.
-double openArea(const core::GeodeticBin& whole, const Places& places) {
+// or ends. It is added up by itself: a small hole is lost in the rounding of large areas. Sorts the places.
+double openArea(const core::GeodeticBin& whole, Places& places) {
     std::vector<double> latitudes{whole.latitude().lower, whole.latitude().upper};
     for (const core::GeodeticBin& place : places)
         latitudes.insert(latitudes.end(), {place.latitude().lower, place.latitude().upper});
     std::sort(latitudes.begin(), latitudes.end());
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.latitude().lower < b.latitude().lower; });
     double area = 0.0;
-    std::vector<core::Interval> longitudes;
+    // a flat database may have a hundred thousand tiles
+    std::vector<const core::GeodeticBin*> across;  // the strip, from west to east
+    auto next = places.begin();
     for (std::size_t i = 0; i + 1 < latitudes.size(); ++i) {
         const double south = latitudes[i], north = latitudes[i + 1];
         if (!(south < north)) continue;
-        longitudes.clear();
-        for (const core::GeodeticBin& place : places) {
-            const bool isInStrip = place.latitude().lower <= south && place.latitude().upper >= north;
-            if (isInStrip) longitudes.push_back(place.longitude());
+        across.erase(std::remove_if(across.begin(), across.end(),
+                                    [south](const auto* place) { return place->latitude().upper <= south; }),
+                     across.end());
+        for (; next != places.end() && next->latitude().lower <= south; ++next) {
+            const auto isWest = [](double west, const auto* place) { return west < place->longitude().lower; };
+            across.insert(std::upper_bound(across.begin(), across.end(), next->longitude().lower, isWest), &*next);
         }
-        area += (north - south) * openLength(whole.longitude(), longitudes);
+        area += (north - south) * openLength(whole.longitude(), across);
     }
     return area;
 }
