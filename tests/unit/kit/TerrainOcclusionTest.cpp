@@ -271,9 +271,11 @@ struct TerrainGlobe {
         }
     }
 
-    [[nodiscard]] bool drawsFarTile() {
+    // `change`: is made between the update and the cull traversal.
+    [[nodiscard]] bool drawsFarTile(const std::function<void()>& change = [] {}) {
         const CullView view = RidgeGlobe::alongRow();
         update(*terrain);
+        change();
         return cull(*terrain, view, *visitor, ++frame).drawn.count(drawableOf(*row[4])) > 0;
     }
     [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
@@ -291,6 +293,23 @@ TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves)
     for (; awaited < 100 && globe.drawsFarTile(); ++awaited) continue;
     EXPECT_GE(awaited, 1);
     EXPECT_LT(awaited, 100);
+}
+
+// A technique of the application's may draw nothing, and one of OSG's has no mesh before the next update.
+TEST(OccludingTerrainTiles, HideNothingOnceTheyHaveAnotherTechnique) {
+    struct OtherTechnique : osgTerrain::GeometryTechnique {};
+    for (const bool isOsgs : {false, true}) {
+        TerrainGlobe globe;
+        installBins(*globe.terrain, withOcclusion());
+        for (int i = 0; i < 3; ++i) EXPECT_FALSE(globe.drawsFarTile());
+        const auto change = [&] {
+            osgTerrain::TerrainTile& ridge = *globe.row[2];
+            isOsgs ? ridge.setTerrainTechnique(new osgTerrain::GeometryTechnique)
+                   : ridge.setTerrainTechnique(new OtherTechnique);
+        };
+        EXPECT_TRUE(globe.drawsFarTile(change)) << isOsgs;
+        EXPECT_EQ(globe.drawsFarTile(), !isOsgs);
+    }
 }
 
 // With a technique that the application vouches for, the horizon is used if the eye is surely above what is drawn. A

@@ -26,8 +26,13 @@ namespace {
 // What OSG keeps for derived classes.
 struct OpenTechnique : public osgTerrain::GeometryTechnique {
     using osgTerrain::GeometryTechnique::BufferData;
-    [[nodiscard]] static const BufferData* meshOf(const osgTerrain::GeometryTechnique& technique) {
-        return (technique.*(&OpenTechnique::_currentBufferData)).get();
+    // Returns: nullptr for other techniques, and where none is made yet.
+    [[nodiscard]] static const BufferData* meshOf(const osgTerrain::TerrainTile& tile) {
+        const osgTerrain::TerrainTechnique* const technique = tile.getTerrainTechnique();
+        const bool isOsgs = technique && isExactly<osgTerrain::GeometryTechnique>(*technique);
+        if (!isOsgs || technique->getTerrainTile() != &tile) return nullptr;
+        return (static_cast<const osgTerrain::GeometryTechnique*>(technique)->*(&OpenTechnique::_currentBufferData))
+            .get();
     }
 };
 struct OpenVisitor : public osgUtil::CullVisitor {
@@ -89,11 +94,7 @@ bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
 // The mesh of an osgTerrain tile, which is drawn whole. Returns: nullptr where the tile has none yet, or another than
 // osgTerrain::GeometryTechnique makes.
 const OpenTechnique::BufferData* madeMesh(osgTerrain::TerrainTile& tile, const osgUtil::CullVisitor& visitor) {
-    auto* const technique = tile.getTerrainTechnique();
-    if (!technique || technique->getTerrainTile() != &tile || !hasBeenTraversed(tile) ||
-        !isExactly<osgTerrain::GeometryTechnique>(*technique))
-        return nullptr;
-    const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
+    const auto* const mesh = hasBeenTraversed(tile) ? OpenTechnique::meshOf(tile) : nullptr;
     if (!mesh || !mesh->_transform || !mesh->_geode || !mesh->_geometry) return nullptr;
     const osg::MatrixTransform& transform = *mesh->_transform;
     const osg::Geode& geode = *mesh->_geode;
@@ -136,6 +137,10 @@ bool isBesideFrustum(osgUtil::CullVisitor& visitor, const osg::BoundingBox& box,
 }
 
 }  // namespace
+
+bool isDrawnByGeometry(const osgTerrain::TerrainTile& tile) {
+    return OpenTechnique::meshOf(tile) != nullptr;
+}
 
 // Delivers drawables in the frame of the visitor, or of one transform in it.
 class FamilyTile::Delivery {

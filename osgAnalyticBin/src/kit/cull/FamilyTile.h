@@ -34,6 +34,9 @@ namespace osgAnalyticBin {
     return depth;
 }
 
+/// Whether exactly osgTerrain::GeometryTechnique draws a tile of osgTerrain, and has made it a mesh.
+[[nodiscard]] bool isDrawnByGeometry(const osgTerrain::TerrainTile& tile);
+
 /// A tile of a family at the time when the family was made, as far as cull traversals need it besides its bin. It draws
 /// the tile's own mesh like osgUtil::CullVisitor, in less time: it adds the drawables without creating a culling set
 /// for the mesh's transform. If nodes of the mesh have changed since, or one of them has a cull callback, OSG draws the

@@ -41,11 +41,12 @@ bool standsBelowParent(const osg::Node& node) {
     return !transform || transform->getReferenceFrame() == osg::Transform::RELATIVE_RF;
 }
 
-// Whether a node is no osgTerrain tile that has lost its technique.
-bool isDrawnByTechnique(const osg::Node& node) {
+// Whether a node is no osgTerrain tile that has lost the technique by which it was read. `isAny`: the application
+// vouches for every technique.
+bool isDrawnByTechnique(const osg::Node& node, bool isAny) {
     if (!isOneOf<osgTerrain::TerrainTile>(node)) return true;
     const auto& tile = static_cast<const osgTerrain::TerrainTile&>(node);
-    return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
+    return !hasBeenTraversed(tile) || (isAny ? tile.getTerrainTechnique() != nullptr : isDrawnByGeometry(tile));
 }
 
 // Whether the application computes the bound of a mesh, or of a part of it, by a callback of its own.
@@ -242,19 +243,20 @@ bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCal
     if (member && member->isMesh(mesh) && member->isDrawnWhole(_visitor, _view.cullStack, _view.rules)) return true;
     const InstalledTile* const installed = tile.getInstalledTile();
     const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
+    const bool isAny = tile.getCullOptions().techniqueMargin.has_value();
     bool hasDrawable = false;
-    return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
+    return isDrawnWhole(mesh, isAny, hasDrawable) && (hasDrawable || !isMeshDoubted);
 }
 
-bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
+bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool isAnyTechnique, bool& hasDrawable) const {
     if (mayChange(part) || !isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
     const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
     hasDrawable = hasDrawable || isTerrain || part.asDrawable();
-    if (isTerrain) return isDrawnByTechnique(part);
+    if (isTerrain) return isDrawnByTechnique(part, isAnyTechnique);
     if (!drawsAllChildren(part)) return false;
     const osg::Group* const group = part.asGroup();
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        if (!isDrawnWhole(*group->getChild(i), hasDrawable)) return false;
+        if (!isDrawnWhole(*group->getChild(i), isAnyTechnique, hasDrawable)) return false;
     }
     return true;
 }

@@ -140,7 +140,7 @@ private:
     [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const;
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
                                     const FamilyTile* member) const;
-    [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const;
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool isAnyTechnique, bool& hasDrawable) const;
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const;
     [[nodiscard]] bool isBeside(const Tile& tile) const;
     [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius,
