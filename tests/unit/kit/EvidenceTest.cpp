@@ -86,6 +86,40 @@ TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEyeBeforeBinsAreInstalledAg
     EXPECT_EQ(globe.counts().hidden, 0u);
 }
 
+// What a visitor has read of the ground in the views before is the ground below the eye, wherever the eye goes.
+TEST(Evidence, OfRoughGroundIsTheSameForAnEyeThatWandersAndForOneThatWasNeverThere) {
+    constexpr unsigned int kPostsASide = 33;
+    constexpr double kCell = 0.2 / (kPostsASide - 1);
+    Random random(77);
+    RidgeGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(0.0, 0.2, 0.0, 0.2), 0.0, kPostsASide);
+    const osg::Matrixd fromEcef = osg::Matrixd::inverse(mesh->getMatrix());
+    auto& vertices = static_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
+    for (unsigned int i = 0; i < vertices.size(); ++i)
+        vertices[i] =
+            ecefDeg(kCell * (i / kPostsASide), kCell * (i % kPostsASide), random.uniform(0.0, 3000.0)) * fromEcef;
+    globe.row[0]->setChild(0, mesh);
+    installBins(*globe.root);
+    double north = 0.1, east = 0.1;
+    int above = 0, below = 0;
+    for (int view = 0; view < 400; ++view) {
+        // steps of a part of a cell, and of some cells now and then
+        const double step = (view % 20 == 0 ? 8.0 : 0.3) * kCell;
+        north = std::clamp(north + random.uniform(-step, step), 0.01, 0.19);
+        east = std::clamp(east + random.uniform(-step, step), 0.01, 0.19);
+        const osg::Vec3d eye = ecefDeg(north, east, random.uniform(500.0, 2500.0));
+        const CullView down = CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0);
+        (void)globe.drawsFarTile(down);
+        const bool isAbove = globe.counts().hidden > 0;
+        ++(isAbove ? above : below);
+        const osg::ref_ptr<osgUtil::CullVisitor> newcomer = new osgUtil::CullVisitor;
+        (void)cull(*globe.root, down, *newcomer, ++globe.frame);
+        EXPECT_EQ(isAbove, BinStatistics::of(*newcomer).getCounts().hidden > 0) << view;
+    }
+    EXPECT_GT(above, 50);
+    EXPECT_GT(below, 50);
+}
+
 // A rock hangs over the plain. From one view to the next the eye gets into it, above the same triangle of the plain.
 TEST(Evidence, IsMissingWithinARockThatHangsOverTheGround) {
     constexpr unsigned int kPostsASide = 9;

@@ -34,9 +34,10 @@ bool isBelow(const SelectionWalk::NearGround& close, const core::Geodetic& place
     if (tile.getTerrainShape() && tile.getTerrainShape()->techniqueMargin > 0.0) return false;
     const InstalledTile* const installed = tile.getInstalledTile();
     const bool isAsRead = installed && !installed->has(InstalledTile::MeshChanged);
-    const double low = tile.getBinLow() - tile.getBin().margin();
-    return view.traversal.ground.isBelow(place, {tile, *close.mesh, tile.getLocalToEcef(), low, isAsRead},
-                                         view.ellipsoid);
+    const double margin = tile.getBin().margin();
+    const Ground ground{
+        tile, *close.mesh, tile.getLocalToEcef(), tile.getBinLow() - margin, tile.getBinHigh() + margin, isAsRead};
+    return view.traversal.ground.isBelow(place, ground, view.ellipsoid);
 }
 
 // Whether the eye is above the ground, or will be, once finer meshes come.
