@@ -3,17 +3,30 @@
 
 #pragma once
 
+#include "Classes.h"
+
 #include <osg/Callback>
 #include <osg/Node>
+#include <osg/NodeCallback>
 #include <osg/ref_ptr>
 
+#include <type_traits>
+
 namespace osgAnalyticBin {
+
+/// A callback as one of a class of node callbacks. Returns: nullptr where it is none. A dynamic_cast across OSG's
+/// virtual bases takes long, and groups may have thousands of children.
+template <class Wanted, class Any>
+[[nodiscard]] Wanted* callbackAs(Any& callback) {
+    if (isExactly<Wanted>(callback)) return static_cast<Wanted*>(callback.asNodeCallback());
+    return std::is_final_v<Wanted> ? nullptr : dynamic_cast<Wanted*>(&callback);
+}
 
 /// Searches a chain of nested callbacks, const or not. Returns: the first one of the class; nullptr when there is none.
 template <class Callback, class First>
 [[nodiscard]] Callback* findCallback(First* first) {
     for (First* callback = first; callback; callback = callback->getNestedCallback()) {
-        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
+        if (auto* found = callbackAs<Callback>(*callback)) return found;
     }
     return nullptr;
 }

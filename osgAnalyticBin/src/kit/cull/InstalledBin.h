@@ -29,7 +29,7 @@ namespace osgAnalyticBin {
 /// Not inlined: deeply nested scenes need the stack.
 [[nodiscard, gnu::noinline]] inline const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
+        const auto* const bin = callbackAs<const AnalyticBinCullCallback>(*at);
         if (bin && bin->getInstalledTile() && bin->getInstalledTile()->isFor(&node)) return bin;
     }
     return nullptr;

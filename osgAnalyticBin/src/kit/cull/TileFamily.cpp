@@ -45,6 +45,14 @@ bool holdsTiles(const osg::Node& node) {
     return false;
 }
 
+// Whether all nodes but null are children of a group, which may have many.
+bool holdsAll(const osg::Group& group, const std::vector<osg::ref_ptr<osg::Node>>& nodes) {
+    std::unordered_set<const osg::Node*> children;
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) children.insert(group.getChild(i));
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](const auto& node) { return !node || children.count(node.get()) > 0; });
+}
+
 // The first tile of a subgraph, whether it is missed or not. Returns: nullptr where there is none.
 const AnalyticBinCullCallback* firstTile(const osg::Node& node) {
     const auto* tile = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
@@ -116,9 +124,7 @@ void TileFamily::renew(osg::Node& node) {
     remove(node);
     osg::Group& group = *node.asGroup();
     const osg::ref_ptr<TileFamily> family = new TileFamily(group, old);
-    family->_hasLostTiles =
-        old->_hasLostTiles || std::any_of(old->_nodes.begin(), old->_nodes.end(),
-                                          [&](const auto& tile) { return tile && !group.containsNode(tile); });
+    family->_hasLostTiles = old->_hasLostTiles || !holdsAll(group, old->_nodes);
     if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
     if (above) family->_block->columnUnion().setAbove(above);
     if (family->_hasTiles || family->_hasGroups || family->_hasOthers || family->_hasLostTiles)
@@ -189,10 +195,7 @@ bool TileFamily::hasChanged(const osg::Group& group) const {
 
 bool TileFamily::hasLost(const osg::Group& group, bool areTilesTested) const {
     const bool isLookedFor = _hasGroups || _hasOthers || !areTilesTested;
-    const bool hasLostOne =
-        isLookedFor && hasChanged(group) &&
-        std::any_of(_nodes.begin(), _nodes.end(), [&](const auto& node) { return node && !group.containsNode(node); });
-    return _hasLostTiles || hasLostOne;
+    return _hasLostTiles || (isLookedFor && hasChanged(group) && !holdsAll(group, _nodes));
 }
 
 bool TileFamily::needsWatch(const osg::Node& group) {

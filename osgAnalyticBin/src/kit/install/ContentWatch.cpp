@@ -44,8 +44,11 @@ namespace osgAnalyticBin {
 
 namespace {
 
+// A group with thousands of children asks for the watch of each, and a dynamic_cast takes long.
 const ContentWatch* watchOf(const osg::Node& node) {
-    return dynamic_cast<const ContentWatch*>(node.getComputeBoundingSphereCallback());
+    const auto* const callback = node.getComputeBoundingSphereCallback();
+    if (!callback || isExactly<ContentWatch>(*callback)) return static_cast<const ContentWatch*>(callback);
+    return dynamic_cast<const ContentWatch*>(callback);
 }
 
 // Whether a node is of one of the classes that most nodes are of. Models may have thousands of them.
