@@ -75,7 +75,7 @@ FAULTS = [
     Fault("content below tiles is known by its address", "src/kit/install/ContentWatch.cpp",
           "_held[i].node.get() == &child", "_held[i].node == &child", NODE, "WhatIgnoresDepth.*"),
     Fault("triangles are known by the address of their array", "src/kit/install/ContentWatch.cpp",
-          "isFitted(child, true, isDue)", "isFitted(child, true, false)", NODE, "Changes.*"),
+          "isFitted(child, i, true, isDue)", "isFitted(child, i, true, false)", NODE, "Changes.*"),
     Fault("databases are known by their addresses", "src/kit/cull/CullTraversal.cpp",
           "last.of.get() != &database", "last.of != &database", NODE, "LastViews.*"),
     Fault("models are drawn in the database's state", "src/kit/cull/HidingView.cpp",

@@ -447,7 +447,7 @@ bool ContentWatch::hasNewContent(const osg::Node& node) {
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        if (!watch->isWatched(child) && !watch->isFitted(child, false, true)) return true;
+        if (!watch->isWatched(child) && !watch->isFitted(child, i, false, true)) return true;
     }
     return false;
 }
@@ -462,11 +462,19 @@ bool ContentWatch::isWatched(const osg::Node& child) const {
     return watch && watch->_above == _tile;
 }
 
+// What was noted of a child; nullptr: the bin was not fitted to it. Most stand where they stood, or one place before.
+const ContentWatch::Fitted* ContentWatch::fittedOf(const osg::Node& child, std::size_t slot) const {
+    const auto isOf = [&child](const Fitted& fitted) { return fitted.node == &child; };
+    const auto from = _fitted.begin() + static_cast<std::ptrdiff_t>(std::min(slot, _fitted.size()));
+    auto known = std::find_if(from, _fitted.end(), isOf);
+    if (known == _fitted.end()) known = std::find_if(_fitted.begin(), from, isOf);
+    return known != _fitted.end() && isOf(*known) ? &*known : nullptr;
+}
+
 // bounds are not computed before OSG does so: it may crash on those of broken meshes
-bool ContentWatch::isFitted(const osg::Node& child, bool withBounds, bool withContent) const {
-    const auto known =
-        std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
-    if (known == _fitted.end() || !(known->state == stateOf(child))) return false;
+bool ContentWatch::isFitted(const osg::Node& child, std::size_t slot, bool withBounds, bool withContent) const {
+    const Fitted* const known = fittedOf(child, slot);
+    if (!known || !(known->state == stateOf(child))) return false;
     if (withContent && known->content != contentOf(child)) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
@@ -475,11 +483,12 @@ bool ContentWatch::isFitted(const osg::Node& child, bool withBounds, bool withCo
 }
 
 bool ContentWatch::isPartMoved(const osg::Group& group) const {
-    return std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
-        if (!group.containsNode(fitted.node)) return false;
-        const State now = stateOf(*fitted.node);
-        return now.parts == fitted.state.parts && now.frames != fitted.state.frames;
-    });
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
+        const Fitted* const fitted = fittedOf(*group.getChild(i), i);
+        const State now = fitted ? stateOf(*fitted->node) : State();
+        if (fitted && now.parts == fitted->state.parts && now.frames != fitted->state.frames) return true;
+    }
+    return false;
 }
 
 bool ContentWatch::isMerged(const osg::Node& node) const {
@@ -535,7 +544,7 @@ void ContentWatch::check(const osg::Node& node) const {
         if ((isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
         // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
-        if (isOwnFrame && isFitted(child, true, isDue)) {
+        if (isOwnFrame && isFitted(child, i, true, isDue)) {
             ++fitted;
             continue;
         }
@@ -551,7 +560,7 @@ void ContentWatch::check(const osg::Node& node) const {
     const bool isOther = fitted < _fitted.size() || (paged && hasMore);
     if (group && isOther && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
     if (hasMore) noteMoreThanMesh(node);
-    if (group || _fitted.empty() || isFitted(node, true, false)) return;
+    if (group || _fitted.empty() || isFitted(node, 0, true, false)) return;
     // an osgTerrain tile that has other heights
     fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
     if (isMergedNow()) doubtMeshOf(node, false);

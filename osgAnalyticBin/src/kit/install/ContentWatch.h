@@ -12,6 +12,7 @@
 #include <osg/Node>
 #include <osg/observer_ptr>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -84,8 +85,10 @@ private:
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     // Whether a child looks after itself, and is below the same tile as when its watch was placed.
     [[nodiscard]] bool isWatched(const osg::Node& child) const;
+    // `slot`: its number among the children.
+    [[nodiscard]] const Fitted* fittedOf(const osg::Node& child, std::size_t slot) const;
     // `withContent`: for children that OSG has been told of.
-    [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds, bool withContent) const;
+    [[nodiscard]] bool isFitted(const osg::Node& child, std::size_t slot, bool withBounds, bool withContent) const;
     // Whether the watched node is in the scene. If not, it is looked at again when it is: until then nothing that is
     // found may be acted on.
     [[nodiscard]] bool isMerged(const osg::Node& node) const;
