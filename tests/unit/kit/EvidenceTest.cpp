@@ -48,6 +48,28 @@ TEST(Evidence, IsMissingInAStateOfTheApplicationsClass) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
+// On the tile, on its mesh, and deeper in it.
+TEST(Evidence, IsMissingWhereOsgCullsClusters) {
+    for (int depth = 0; depth < 3; ++depth) {
+        RidgeGlobe globe;
+        osg::Node* node = globe.row[2];
+        for (int i = 0; i < depth; ++i) node = node->asGroup()->getChild(0);
+        const osg::ref_ptr<osg::ClusterCullingCallback> cluster = new osg::ClusterCullingCallback;
+        cluster->setRadius(-1.0f);
+        cluster->setDeviation(2.0f);  // more than any
+        node->setCullCallback(cluster);
+        CullView view = RidgeGlobe::alongRow();
+        view.cullingMode |= osg::CullSettings::CLUSTER_CULLING;
+        for (const bool isKept : {false, true}) {
+            CullOptions options = withOcclusion();
+            options.cluster = isKept ? ClusterUse::Keep : ClusterUse::Replace;
+            installBins(*globe.root, options);
+            EXPECT_EQ(globe.draws(*globe.row[2], view), !isKept) << depth;
+            EXPECT_EQ(globe.drawsFarTile(view), isKept) << depth;
+        }
+    }
+}
+
 TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     // above all posts, and between them, where the mesh sags
     for (const double altitude : {4000.0, -1000.0}) {

@@ -30,6 +30,8 @@ struct CullCallbacks {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
+            } else if (isExactly<osg::ClusterCullingCallback>(*at)) {
+                cullsClusters = true;
             } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
             } else if (!isHarmless(*at) && isForeign(*at)) {
@@ -41,7 +43,8 @@ struct CullCallbacks {
     const AnalyticBinCullCallback* bin = nullptr;
     const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
-    bool isUnknown = false;  ///< one that may leave out may also draw otherwise
+    bool cullsClusters = false;  ///< one may leave out what is below, where OSG culls clusters
+    bool isUnknown = false;      ///< one that may leave out may also draw otherwise
 };
 
 /// Of a node without what is below it: its state, its class, its primitives, its callbacks.

@@ -65,18 +65,25 @@ DrawnState SelectionWalk::stateOf(const osg::Node& node) const {
     return _searches || _hiding.eye ? drawnStateOf(node, _view.rules) : DrawnState();
 }
 
+// Where the application keeps its callbacks for clusters, or in a map, they cull. Where bins replace them they are
+// idle.
+bool SelectionWalk::mayLeaveOut(const CullCallbacks& callbacks) const {
+    return callbacks.mayLeaveOut ||
+           (callbacks.cullsClusters && (_view.cullStack.getCullingMode() & osg::CullSettings::CLUSTER_CULLING));
+}
+
 // For evidence, below what OSG enters by itself. The families there begin segments.
 void SelectionWalk::searchNode(osg::Node& node) {
     if (!_searches) return;
     // most nodes that are no tiles are roots of files: plain groups
     const bool isGroup = isExactly<osg::Group>(node);
     const CullCallbacks callbacks(node);
-    if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
+    if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, mayLeaveOut(callbacks));
     // another database is on a globe of its own, or in a map
     if (isPhotogrammetrySet(node) || (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node))) return;
     const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
     const DrawnState drawn = stateOf(node);
-    const bool isDrawn = _visitor.validNodeMask(node) && !callbacks.mayLeaveOut && drawn.hides &&
+    const bool isDrawn = _visitor.validNodeMask(node) && !mayLeaveOut(callbacks) && drawn.hides &&
                          (isGroup || drawsAllChildren(node)) && standsBelowParent(node);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
@@ -90,7 +97,7 @@ void SelectionWalk::searchNode(osg::Node& node) {
     selectChildren(*group, callbacks.family);
 }
 
-void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool leavesOut) {
     // the next update fits its bin to what its mesh has become
     const InstalledTile* const installed = bin.getInstalledTile();
     if (installed && installed->has(InstalledTile::MeshChanged) && installed->has(InstalledTile::Outgrown)) doubt();
@@ -104,7 +111,7 @@ void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCu
     if (!tile.isAboutEye && (isBeside(tile) || isHidden)) return;
     // its place may be empty
     const bool isSeeThrough = installed && installed->isSeeThrough();
-    if (_isDoubtful || isSeeThrough || !isSurelyDrawn(node, mayLeaveOut) || !standsAsInstalled(node, bin)) doubt();
+    if (_isDoubtful || isSeeThrough || !isSurelyDrawn(node, leavesOut) || !standsAsInstalled(node, bin)) doubt();
     if (_hasHole || !_searches) return;
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
     searchTile(node, pagedLod(node), tile);
@@ -230,11 +237,11 @@ bool SelectionWalk::standsAsInstalled(const osg::Node& node, const AnalyticBinCu
     return areNearlyEqual(toEcef, tile.getLocalToEcef(), reach);
 }
 
-bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
+bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool leavesOut) const {
     const StateRules& rules = _view.rules;
     // other classes, and their parts, were asked for when bins were installed
     const DrawnState drawn = node.asDrawable() ? drawnStateByClass(node, rules) : drawnStateOf(node, rules);
-    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides && standsBelowParent(node);
+    return _visitor.validNodeMask(node) && !leavesOut && drawn.hides && standsBelowParent(node);
 }
 
 // Whether all of a tile's own mesh is drawn.
@@ -249,7 +256,7 @@ bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCal
 }
 
 bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool isAnyTechnique, bool& hasDrawable) const {
-    if (mayChange(part) || !isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
+    if (mayChange(part) || !isSurelyDrawn(part, mayLeaveOut(CullCallbacks(part)))) return false;
     const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
     hasDrawable = hasDrawable || isTerrain || part.asDrawable();
     if (isTerrain) return isDrawnByTechnique(part, isAnyTechnique);

@@ -248,10 +248,10 @@ void SelectionWalk::selectMember(osg::Node& node, const Siblings& siblings, unsi
     // the spheres of those that are kept were tested
     const bool mayBeLeftOut = _searches && numbers.testsSphere && !hasBit(siblings.kept, number);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (mayBeLeftOut && isLeftOut(node)));
-    const bool mayLeaveOut = _searches && !isAlone && CullCallbacks(node).mayLeaveOut;
+    const bool leavesOut = _searches && !isAlone && mayLeaveOut(CullCallbacks(node));
     tile.isCertain = hasBit(siblings.certain, number);
     const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();
-    if (_isDoubtful || isSeeThrough || !drawn.hides || mayLeaveOut || !_visitor.validNodeMask(node)) doubt();
+    if (_isDoubtful || isSeeThrough || !drawn.hides || leavesOut || !_visitor.validNodeMask(node)) doubt();
     if (_hasHole || !(_searches || _keeps)) return;
     if (!_keeps) return searchTile(node, member.paged(), tile);
     const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "TileFamily.h"
 #include "TileSelection.h"
@@ -109,7 +110,7 @@ private:
     static void noteFootprint(const osg::PagedLOD& node, const FamilyTile& member, const osg::Node& level,
                               const TileFamily* family);
     void searchNode(osg::Node& node);
-    void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
+    void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool leavesOut);
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);
     void searchPaged(osg::PagedLOD& node, const Tile& tile);
     void searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel);
@@ -127,6 +128,7 @@ private:
         _searches = _searches && !_isAdded;
     }
     [[nodiscard]] DrawnState stateOf(const osg::Node& node) const;
+    [[nodiscard]] bool mayLeaveOut(const CullCallbacks& callbacks) const;
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
     [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);
@@ -137,7 +139,7 @@ private:
     [[nodiscard]] bool isSmallFeature(const osg::Node& node) const;
     [[nodiscard]] osg::Matrixd frameInside(const osg::Node& node) const;
     [[nodiscard]] bool standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const;
-    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const;
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool leavesOut) const;
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
                                     const FamilyTile* member) const;
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool isAnyTechnique, bool& hasDrawable) const;
