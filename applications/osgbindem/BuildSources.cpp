@@ -3,7 +3,6 @@
 
 #include "DatabaseBuilder.h"
 #include "RasterLayer.h"
-#include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -29,7 +28,7 @@ constexpr const char* kElevation = "elevation ";
 constexpr const char* kImage = "image ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 7;
+constexpr int kFormat = 8;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
@@ -44,26 +43,16 @@ void describeFile(const std::string& path, std::ostream& out) {
     if (isThere) out << ' ' << status.st_size << ' ' << status.st_mtim.tv_sec << '.' << status.st_mtim.tv_nsec;
 }
 
-/// How far from a change of a coarser raster heights of this one's voids may change, in degrees.
-double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayout& layout) {
-    double spacing = grid.coarsestDeg();
-    // An overview may be read in place of the raster.
-    if (settings.useOverviews) spacing = std::max(spacing, 2.0 * layout.spacingDeg(layout.deepestLevel()));
-    return VoidFill::kMostReach * spacing;
-}
-
-/// Rasters of all layers in the order of the command line, a line each. `reach`: of a raster's voids, in degrees.
-template <typename Reach>
-void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out, const Reach& reach) {
+/// Rasters of all layers in the order of the command line, a line each.
+void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out) {
     std::map<std::size_t, const RasterLayer::Member*> members;
     for (const auto& layer : layers)
         for (const RasterLayer::Member& member : layer->members()) members[member.number] = &member;
     for (const auto& [number, member] : members) {
-        // Where heights or colours may depend on the raster.
-        const RectDeg area = member->grid.extent().grownBy(member->grid.resolutionDeg());
-        out << kind << reach(member->grid) << ' ' << member->grid.resolutionDeg() << ' ' << area.west << ' '
-            << area.south << ' ' << area.east << ' ' << area.north << ' ' << wholePath(member->file.input.path)
-            << ", blended over ";
+        // Where heights or colours may depend on the raster: up to the next posts of finer ones.
+        const RectDeg area = member->grid.extent().grownBy(4.0 * member->grid.coarsestDeg());
+        out << kind << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << ' '
+            << wholePath(member->file.input.path) << ", " << member->grid.resolutionDeg() << " degrees, blended over ";
         member->band.describe(out);
         out << ", scale " << member->file.input.metresPerUnit.value_or(0.0);
         // A raster may be made of many files: a mosaic, or one with overviews beside it.
@@ -74,11 +63,8 @@ void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::o
 }
 
 struct Raster {
-    /// See reachOf(). No part of what the raster is: it depends on the other rasters too.
-    double reachDeg = 0.0;
-    double resolutionDeg = 0.0;
     RectDeg area;
-    /// Describes the raster, but not the area that it covers.
+    /// Describes the raster.
     std::string text;
 
     bool operator==(const Raster& other) const { return text == other.text; }
@@ -93,11 +79,9 @@ struct Sources {
             const std::string kind = line.substr(0, line.find(' ') + 1);
             if (kind == kElevation || kind == kImage) {
                 Raster& raster = rasters[kind].emplace_back();
-                std::istringstream numbers(line.substr(kind.size()));
-                numbers >> raster.reachDeg;
-                std::getline(numbers, raster.text);
-                std::istringstream(raster.text) >> raster.resolutionDeg >> raster.area.west >> raster.area.south >>
-                    raster.area.east >> raster.area.north;
+                raster.text = line.substr(kind.size());
+                std::istringstream(raster.text) >> raster.area.west >> raster.area.south >> raster.area.east >>
+                    raster.area.north;
             } else if (line.rfind(kFoundLevels, 0) != 0) {
                 settings += line + '\n';
             }
@@ -121,22 +105,12 @@ Rasters without(const Rasters& rasters, const Rasters& others) {
 void addChanges(const Rasters& before, const Rasters& now, ChangedArea& area) {
     Rasters changed = without(before, now);
     const Rasters added = without(now, before);
-    Rasters kept = without(before, changed);
+    const Rasters kept = without(before, changed);
     // Of two rasters that are equally fine, the one that is named first counts.
     const bool isInOrder = kept == without(now, added);
     changed.insert(changed.end(), added.begin(), added.end());
-    if (!isInOrder) {
-        changed.insert(changed.end(), kept.begin(), kept.end());
-        kept.clear();
-    }
-    constexpr double kNearlyAsFine = 1.1;  // spacings of what counts as equally fine differ by less
-    for (const Raster& raster : changed) {
-        // Heights may change where the raster lies, and in the voids of finer ones that are kept.
-        double reach = 0.0;
-        for (const Raster& other : kept)
-            if (other.resolutionDeg <= kNearlyAsFine * raster.resolutionDeg) reach += other.reachDeg;
-        area.push_back(raster.area.grownBy(reach));
-    }
+    if (!isInOrder) changed.insert(changed.end(), kept.begin(), kept.end());
+    for (const Raster& raster : changed) area.push_back(raster.area);
 }
 
 }  // namespace
@@ -164,9 +138,8 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     if (settings.band) out << "band " << *settings.band << '\n';
     for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out,
-                    [&](const RasterGrid& grid) { return reachOf(grid, settings, layout); });
-    describeRasters(RasterLayer::imagesOf(settings), kImage, out, [](const RasterGrid&) { return 0.0; });
+    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out);
+    describeRasters(RasterLayer::imagesOf(settings), kImage, out);
     return out.str();
 }
 

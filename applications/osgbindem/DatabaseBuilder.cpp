@@ -50,6 +50,14 @@ void split(const Task& task, double most, const DemMosaic& mosaic, const TileLay
     for (const TileId& child : tile.children()) split(taskFor(child, mosaic, layout), most, mosaic, layout, tasks);
 }
 
+/// What the threads share that build one database.
+struct Site {
+    const Settings& settings;
+    const TileLayout& layout;
+    const DatabaseFolder& folder;
+    Progress& progress;
+};
+
 /// Does a task, unless an earlier run has done it and its files are whole.
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     const auto known = site.folder.find(task.tile, site.layout);
@@ -69,6 +77,8 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
 }
 
 using Work = std::function<void(TileBuilder& builder)>;
+/// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.
+using Glance = std::function<void(bool isStopped)>;
 
 /// Does `work` in each thread with a builder of its own.
 void inThreads(const Site& site, const Glance& glance, const Work& work) {
@@ -95,8 +105,6 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
         threads.push_back(std::async(std::launch::async, [&, mayLeave] {
             guarded([&] {
                 TileBuilder builder(site.settings, site.layout, site.folder.files());
-                if (site.standing)
-                    builder.setFinishedTasks([&](const TileId& tile) { return site.standing(builder, tile); });
                 work(builder);
             });
             ++finished;
@@ -111,6 +119,70 @@ void inThreads(const Site& site, const Glance& glance, const Work& work) {
     leave.set_value();
     for (const auto& thread : threads) thread.wait();
     if (error) std::rethrow_exception(error);
+}
+
+/// The layout that the settings ask for, or else the rasters.
+TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
+    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
+    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
+    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
+}
+
+/// The same, once every raster is known to have heights; the rasters are closed again. Says what the user should know
+/// of them, unless that is quiet. Throws Failure.
+TileLayout checkedLayoutFor(const Settings& settings) {
+    DemMosaic mosaic(settings);
+    for (const std::string& line : mosaic.inspect()) {
+        if (!settings.quiet) std::cout << line << std::endl;
+    }
+    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
+        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
+    }
+    return layoutFor(settings, mosaic);
+}
+
+/// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
+/// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
+/// No raster is read.
+std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
+    std::vector<Task> starts;
+    double sum = 0.0;
+    for (const TileId& tile : layout.startTiles()) {
+        starts.push_back(taskFor(tile, mosaic, layout));
+        sum += starts.back().weight;
+    }
+    std::vector<Task> tasks;
+    const double most = std::min(sum / kFewestTasks, kMostWeight);
+    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
+    return tasks;
+}
+
+/// Does tasks in threads, those left out that an earlier run has done and whose files are whole. `glance`: may be null.
+/// Throws what was thrown first.
+void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
+    std::atomic<std::size_t> next{0};
+    inThreads(site, glance, [&](TileBuilder& builder) {
+        for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
+    });
+}
+
+/// Builds the start tiles in threads, from what all tasks of the plan have left. Throws what was thrown first.
+std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan) {
+    std::set<TileId> done;
+    for (const Task& task : plan) done.insert(task.tile);
+    const std::vector<TileId>& tiles = site.layout.startTiles();
+    std::vector<BuiltTile> starts(tiles.size());
+    std::atomic<std::size_t> next{0};
+    inThreads(site, nullptr, [&](TileBuilder& builder) {
+        builder.setFinishedTasks([&](const TileId& tile) {
+            if (done.count(tile) == 0) return std::optional<SurveyedTile>();
+            auto record = site.folder.find(tile, site.layout);
+            if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
+            return record;
+        });
+        for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
+    });
+    return starts;
 }
 
 /// Ends the program, MPI's part left out, as mpirun wants it after a signal.
@@ -249,6 +321,21 @@ void doParts(const Site& site, const std::vector<Task>& plan, const Ranks& ranks
     }
 }
 
+/// What has changed since the finished database was built. Throws Failure when it cannot be brought up to date.
+ChangedArea changesSince(const DatabaseFolder& folder, const std::string& sources, const std::string& name) {
+    const std::string before = folder.standingSources();
+    if (before.empty()) {
+        throw Failure("nobody knows what \"" + name + "\" was built from; build it anew, with --overwrite");
+    }
+    const auto area = changedBetween(before, sources);
+    if (!area) {
+        throw Failure("\"" + name +
+                      "\" was built with other settings or by another version; give the same, or build it anew, with "
+                      "--overwrite");
+    }
+    return *area;
+}
+
 void buildWith(const Settings& given, const Ranks& ranks) {
     const auto start = std::chrono::steady_clock::now();
     Meetings meetings(ranks, throwIfStopRequested);
@@ -257,10 +344,21 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
-    if (!settings.overwrite) folder.requireNone();
+    if (!settings.overwrite && !settings.update) folder.requireNone();
     const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
     const std::string sources = describeSources(settings, layout);
+    const bool isUpdate = settings.update && folder.isComplete();
+    const ChangedArea area = isUpdate ? changesSince(folder, sources, settings.output) : ChangedArea();
+    if (isUpdate && area.empty()) {
+        if (!settings.quiet) std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
+        return;
+    }
     beginOrGoOn(settings, sources, plan.size(), folder);
+    if (isUpdate) {
+        const std::size_t unchanged = takeOverUnchanged(settings, layout, plan, area, folder);
+        if (!settings.quiet)
+            std::cout << "updates: " << unchanged << " of " << plan.size() << " parts stay" << std::endl;
+    }
     meetings.hold();
     // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
     meetings.setInterrupted([&] {
@@ -273,7 +371,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
         doParts(site, plan, ranks, meetings);
         const std::vector<BuiltTile> starts = buildStarts(site, plan);
         const std::string root = rootFileBytes(starts, settings, layout);
-        folder.complete(root, sources);
+        folder.complete(root);
         progress.finish();
         if (settings.quiet) return;
         Tally tally;
@@ -287,13 +385,6 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     } catch (const Failure& failure) {
         throw Failure(failure.what() + whatIsKept(folder, plan.size()));
     }
-}
-
-/// The layout that the settings ask for, or else the rasters.
-TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
-    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
-    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
-    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
 }
 
 /// Every rank but the first.
@@ -318,55 +409,6 @@ void helpFirstRank(const Settings& given, const Ranks& ranks) {
 }
 
 }  // namespace
-
-TileLayout checkedLayoutFor(const Settings& settings) {
-    DemMosaic mosaic(settings);
-    for (const std::string& line : mosaic.inspect()) {
-        if (!settings.quiet) std::cout << line << std::endl;
-    }
-    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
-        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
-    }
-    return layoutFor(settings, mosaic);
-}
-
-std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
-    std::vector<Task> starts;
-    double sum = 0.0;
-    for (const TileId& tile : layout.startTiles()) {
-        starts.push_back(taskFor(tile, mosaic, layout));
-        sum += starts.back().weight;
-    }
-    std::vector<Task> tasks;
-    const double most = std::min(sum / kFewestTasks, kMostWeight);
-    for (const Task& start : starts) split(start, most, mosaic, layout, tasks);
-    return tasks;
-}
-
-void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
-    std::atomic<std::size_t> next{0};
-    inThreads(site, glance, [&](TileBuilder& builder) {
-        for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
-    });
-}
-
-std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan) {
-    std::set<TileId> done;
-    for (const Task& task : plan) done.insert(task.tile);
-    const std::vector<TileId>& tiles = site.layout.startTiles();
-    std::vector<BuiltTile> starts(tiles.size());
-    std::atomic<std::size_t> next{0};
-    inThreads(site, nullptr, [&](TileBuilder& builder) {
-        builder.setFinishedTasks([&](const TileId& tile) {
-            if (done.count(tile) == 0) return site.standing ? site.standing(builder, tile) : std::nullopt;
-            auto record = site.folder.find(tile, site.layout);
-            if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the command again");
-            return record;
-        });
-        for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
-    });
-    return starts;
-}
 
 void buildDatabase(const Settings& settings, const Ranks& ranks) {
     ranks.isFirst() ? buildWith(settings, ranks) : helpFirstRank(settings, ranks);

@@ -24,13 +24,9 @@ namespace osgbindem {
 
 /// Builds the whole database, or what an earlier run of the same settings and rasters has left of it to do.
 /// Throws Failure, Interrupted; then what is done is kept beside the output for the next run, finished subtrees only.
+/// An update takes over those parts of the finished database that come out as they are.
 /// The other ranks only help; what went wrong there is thrown by the first one.
 void buildDatabase(const Settings& settings, const Ranks& ranks);
-
-/// Builds what has changed of a database since its rasters were other ones; the result is that of buildDatabase().
-/// Throws Failure, Interrupted; then the database is as it was, or, if the new files were on their way into it already,
-/// the next run of the program brings in the rest.
-void updateDatabase(const Settings& settings);
 
 /// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their
 /// sizes and times. Two runs with the same text build the same files.
@@ -85,33 +81,9 @@ private:
     double _done = 0.0;
 };
 
-/// The layout that the settings ask for, or else the rasters, once every raster is known to have heights; the rasters
-/// are closed again. Says what the user should know of them, unless that is quiet. Throws Failure.
-[[nodiscard]] TileLayout checkedLayoutFor(const Settings& settings);
-
-/// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
-/// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
-/// No raster is read.
-[[nodiscard]] std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout);
-
-/// What the threads share that build or update one database.
-struct Site {
-    const Settings& settings;
-    const TileLayout& layout;
-    const DatabaseFolder& folder;
-    Progress& progress;
-    /// Of a database that is updated: finds tiles that stay as they are, with a builder of the thread.
-    std::function<std::optional<SurveyedTile>(TileBuilder& builder, const TileId& tile)> standing = nullptr;
-};
-
-/// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.
-using Glance = std::function<void(bool isStopped)>;
-
-/// Does tasks in threads, those left out that an earlier run has done and whose files are whole. `glance`: may be null.
-/// Throws what was thrown first.
-void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance);
-
-/// Builds the start tiles in threads, from what all tasks of the plan have left. Throws what was thrown first.
-[[nodiscard]] std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& plan);
+/// Takes those parts of a plan over from the finished database that come out as they are. Returns: how many there are.
+/// Throws Failure, Interrupted.
+std::size_t takeOverUnchanged(const Settings& settings, const TileLayout& layout, const std::vector<Task>& plan,
+                              const ChangedArea& area, const DatabaseFolder& folder);
 
 }  // namespace osgbindem

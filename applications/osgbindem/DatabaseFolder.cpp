@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -29,6 +28,7 @@ namespace {
 
 // Behind the name of what is not complete.
 constexpr const char* kPartial = ".partial";
+constexpr const char* kState = "state";
 
 // A folder holds the files of this many levels and one folder for each tile of the next: 341 files, 1024 folders.
 constexpr int kLevelsPerFolder = 5;
@@ -53,17 +53,14 @@ void moveTo(const std::string& from, const std::string& to) {
     if (error) throw Failure("cannot rename \"" + from + "\" to \"" + to + "\": " + error.message());
 }
 
-/// The files with tiles below a folder, those of the deepest levels first.
-std::vector<fs::path> finestFirst(const std::string& folder, const std::string& leftOut) {
-    std::vector<fs::path> files;
-    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-        if (entry->path() == leftOut) entry.disable_recursion_pending();
-        if (entry->is_regular_file()) files.push_back(entry->path());
-    }
-    // Names begin with the level, in two digits.
-    std::sort(files.begin(), files.end(),
-              [](const fs::path& a, const fs::path& b) { return a.filename() > b.filename(); });
-    return files;
+/// A second name for a file; a copy where the file system has no such names.
+void takeFile(const std::string& from, const std::string& to) {
+    std::error_code error;
+    support::makeFolder(fs::path(to).parent_path().string());
+    fs::remove(to, error);
+    fs::create_hard_link(from, to, error);
+    if (error) fs::copy_file(from, to, error);
+    if (error) throw Failure("cannot copy \"" + from + "\" to \"" + to + "\": " + error.message());
 }
 
 }  // namespace
@@ -118,14 +115,20 @@ std::uint64_t TileFiles::checksumBelow(const TileId& tile) const {
     return sum;
 }
 
+void TileFiles::takeBelow(const TileId& tile, const TileFiles& from) const {
+    support::throwIfStopRequested();
+    if (!from.hasChildren(tile)) return;
+    takeFile(from.pathOfChildren(tile), pathOfChildren(tile));
+    if (tile.level + 1 >= TileLayout::kDeepest) return;
+    for (const TileId& child : tile.children()) takeBelow(child, from);
+}
+
 DatabaseFolder::DatabaseFolder(const std::string& rootFile)
     : _rootFile(rootFile),
-      _sources(rootFile + ".sources"),
       _tilesName(fs::path(rootFile).stem().string() + "_tiles"),
       _tiles((fs::path(rootFile).parent_path() / _tilesName).string()),
       _partial(_tiles + kPartial),
       _old(_tiles + ".old"),
-      _oldState(_tiles + ".state"),
       _files(_partial, _tilesName),
       _standingFiles(_tiles, _tilesName) {
     const fs::path path(rootFile);
@@ -137,26 +140,24 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile)
     if (fs::is_directory(path, error)) {
         throw Failure("the output \"" + rootFile + "\" is a folder; name a file that ends in .osgb");
     }
-    for (const std::string& replaced : {_tiles, _partial, _old}) requireOwnFolder(replaced, replaced == _partial);
+    for (const std::string& replaced : {_tiles, _partial, _old}) requireOwnFolder(replaced);
 }
 
 DatabaseFolder::~DatabaseFolder() {
     if (!_lock) return;
     std::error_code ignored;
-    if (!fs::exists(mergeFile(), ignored)) {
-        if (doneCount() == 0) fs::remove_all(_partial, ignored);
-        for (const std::string& file : {_rootFile, _sources}) fs::remove(file + kPartial, ignored);
-    }
+    if (doneCount() == 0) fs::remove_all(_partial, ignored);
+    fs::remove(_rootFile + kPartial, ignored);
     _lock->remove();
 }
 
-void DatabaseFolder::requireOwnFolder(const std::string& folder, bool mayHaveState) const {
+void DatabaseFolder::requireOwnFolder(const std::string& folder) const {
     // The folder is going to be replaced: it must hold tiles and nothing of anybody else's.
     std::error_code error;
     if (!fs::exists(folder, error)) return;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename().string();
-        if (!isStartName(name) && !(mayHaveState && name == kStateName)) {
+        if (!isStartName(name) && name != kState) {
             throw Failure("\"" + folder + "\" has files that are no tiles; move it away or choose another name");
         }
     }
@@ -165,12 +166,15 @@ void DatabaseFolder::requireOwnFolder(const std::string& folder, bool mayHaveSta
 
 void DatabaseFolder::lock() {
     _lock.emplace(_tiles + ".lock", "osgbindem", _rootFile);
-    if (fs::exists(mergeFile())) carryMergeThrough();
+}
+
+bool DatabaseFolder::isComplete() const {
+    std::error_code ignored;
+    return fs::exists(_rootFile, ignored);
 }
 
 void DatabaseFolder::requireNone() const {
-    std::error_code ignored;
-    if (!fs::exists(_rootFile, ignored)) return;
+    if (!isComplete()) return;
     throw Failure("\"" + _rootFile + "\" is there already; give --overwrite, --update or another name");
 }
 
@@ -182,23 +186,27 @@ void DatabaseFolder::remove(const std::string& folder) const {
 
 void DatabaseFolder::clear() {
     // The state goes first: without it, nobody takes what is left for anything.
-    remove(stateFolder());
-    for (const std::string& left : {_partial, _old, _oldState}) remove(left);
+    remove(_partial + "/" + kState);
+    for (const std::string& left : {_partial, _old}) remove(left);
 }
 
-std::string DatabaseFolder::recordOf(const TileId& tile) const {
-    return stateFolder() + "/" + startName(tile) + "/" + tileName(tile) + ".task";
+std::string DatabaseFolder::sourcesIn(const std::string& folder) {
+    return folder + "/" + kState + "/sources.txt";
+}
+
+std::string DatabaseFolder::recordIn(const std::string& folder, const TileId& tile) {
+    return folder + "/" + kState + "/" + startName(tile) + "/" + tileName(tile) + ".task";
 }
 
 void DatabaseFolder::beginState(const std::string& sources) const {
-    support::makeFolder(stateFolder());
-    writeFile(stateSources(), sources);
+    support::makeFolder(_partial + "/" + kState);
+    writeFile(sourcesIn(_partial), sources);
 }
 
 std::size_t DatabaseFolder::doneCount() const {
     std::size_t count = 0;
     std::error_code error;
-    for (fs::recursive_directory_iterator entry(stateFolder(), error), end; !error && entry != end;
+    for (fs::recursive_directory_iterator entry(_partial + "/" + kState, error), end; !error && entry != end;
          entry.increment(error)) {
         if (entry->path().extension() == ".task") ++count;
     }
@@ -209,13 +217,13 @@ void DatabaseFolder::keep(const SurveyedTile& tile) const {
     RecordWriter out;
     out.list(packed(tile.grid));
     out.value<TileFigures>(tile);
-    const std::string file = recordOf(tile.id);
+    const std::string file = recordIn(_partial, tile.id);
     support::makeFolder(fs::path(file).parent_path().string());
     writeFile(file, support::withChecksum(out.bytes));
 }
 
 std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileLayout& layout) const {
-    const std::string bytes = support::contentOf(recordOf(tile));
+    const std::string bytes = support::contentOf(recordIn(_partial, tile));
     const auto whole = support::wholeBytes(bytes);
     if (!whole) return std::nullopt;
     SurveyedTile found;
@@ -235,56 +243,26 @@ std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileL
     return found;
 }
 
-void DatabaseFolder::writeRoot(const std::string& rootBytes, const std::string& sources) const {
+bool DatabaseFolder::takeOver(const TileId& tile) const {
+    const std::string record = recordIn(_tiles, tile);
+    if (!fs::exists(record)) return false;
+    if (fs::exists(recordIn(_partial, tile))) return true;
+    _files.takeBelow(tile, _standingFiles);
+    takeFile(record, recordIn(_partial, tile));
+    return true;
+}
+
+void DatabaseFolder::complete(const std::string& rootBytes) {
     writeFile(_rootFile + kPartial, rootBytes);
-    writeFile(_sources + kPartial, sources);
     support::flushToDisk(_partial);
-}
-
-void DatabaseFolder::moveRoot() const {
-    for (const std::string& file : {_sources, _rootFile})
-        if (fs::exists(file + kPartial)) moveTo(file + kPartial, file);
-}
-
-void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
-    writeRoot(rootBytes, sources);
-    for (const std::string& left : {_old, _oldState}) remove(left);
-    moveTo(stateFolder(), _oldState);
+    remove(_old);
     std::error_code error;
     fs::remove(_rootFile, error);
     if (error) throw Failure("cannot replace \"" + _rootFile + "\": " + error.message());
     if (fs::exists(_tiles)) moveTo(_tiles, _old);
     moveTo(_partial, _tiles);
-    moveRoot();
-    for (const std::string& left : {_oldState, _old}) fs::remove_all(left, error);
-}
-
-void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sources,
-                           const std::vector<TileId>& removed) {
-    std::string names;
-    for (const TileId& tile : removed)
-        names += fs::relative(_standingFiles.pathOfChildren(tile), _tiles).string() + '\n';
-    support::makeFolder(stateFolder());
-    writeRoot(rootBytes, sources);
-    writeFile(mergeFile(), names);
-    carryMergeThrough();
-}
-
-void DatabaseFolder::carryMergeThrough() {
-    for (const fs::path& file : finestFirst(_partial, stateFolder())) {
-        const fs::path target = _tiles / fs::relative(file, _partial);
-        support::makeFolder(target.parent_path().string());
-        moveTo(file.string(), target.string());
-    }
-    moveRoot();
-    std::ifstream names(mergeFile());
-    for (std::string name; std::getline(names, name);) {
-        std::error_code ignored;
-        fs::remove(_tiles + "/" + name, ignored);
-        // The folder, when that was the last of it.
-        fs::remove(fs::path(_tiles + "/" + name).parent_path(), ignored);
-    }
-    remove(_partial);
+    moveTo(_rootFile + kPartial, _rootFile);
+    fs::remove_all(_old, error);
 }
 
 }  // namespace osgbindem

@@ -49,6 +49,9 @@ public:
     /// Reads back all files below a tile. Returns: the sum of their checksums.
     [[nodiscard]] std::uint64_t checksumBelow(const TileId& tile) const;
 
+    /// Takes over all files below a tile, as they are, from another folder. Throws Failure.
+    void takeBelow(const TileId& tile, const TileFiles& from) const;
+
 private:
     std::string _folder;
     std::string _finalName;
@@ -59,13 +62,9 @@ struct SurveyedTile;
 /// Where the files of a database stand: "earth.osgb" is the root file, its tiles are below "earth_tiles". All tiles are
 /// written below "earth_tiles.partial", which takes the place of "earth_tiles" when everything is there; the root file
 /// comes last. So a root file always belongs to a complete database, and an older database of the same name stays
-/// whole until then. "earth_tiles.partial/state" says what these tiles are built from and holds a record of each task
-/// of the work plan, written after the task's tiles: a later run goes on from it, and programs on several machines
-/// share it. "earth.osgb.sources" says what the complete tiles are built from.
-///
-/// An update moves its files one by one into "earth_tiles", so that readers always find all files that a file names:
-/// each is complete, and those with finer tiles come first. From the first on, it is carried through by whatever run
-/// comes next, should this one be ended.
+/// whole until then. The folder "state" beside the tiles says what they are built from and holds a record of each task
+/// of the work plan, written after the task's tiles: a later run goes on from it, programs on several machines share
+/// it, and an update takes over from it what stays.
 class DatabaseFolder final {
 public:
     /// Throws Failure when no database can be there.
@@ -73,7 +72,7 @@ public:
     /// Removes what is not complete, unless a later run can go on with it.
     ~DatabaseFolder();
 
-    /// Locks the database against a second program, and completes an update that was cut off. Throws Failure.
+    /// Locks the database against a second program. Throws Failure.
     void lock();
 
     /// Requires: locked. Throws Failure when there is a root file already: it belongs to a complete database.
@@ -85,15 +84,16 @@ public:
     [[nodiscard]] const std::string& partial() const { return _partial; }
     [[nodiscard]] const TileFiles& files() const { return _files; }
 
-    [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
+    /// Whether there is a root file, which belongs to a complete database.
+    [[nodiscard]] bool isComplete() const;
     /// The files of the complete database.
     [[nodiscard]] const TileFiles& standingFiles() const { return _standingFiles; }
-    /// What the complete database is built from; empty when there is none or nobody knows.
-    [[nodiscard]] std::string standingSources() const { return osgAnalyticBin::support::contentOf(_sources); }
+    /// What the complete database is built from; empty when nobody knows.
+    [[nodiscard]] std::string standingSources() const { return osgAnalyticBin::support::contentOf(sourcesIn(_tiles)); }
 
     /// Whether the state belongs to a database that is built from just this.
     [[nodiscard]] bool isStateOf(const std::string& sources) const {
-        return osgAnalyticBin::support::contentOf(stateSources()) == sources;
+        return osgAnalyticBin::support::contentOf(sourcesIn(_partial)) == sources;
     }
     /// Requires: there is no state. Throws Failure.
     void beginState(const std::string& sources) const;
@@ -104,35 +104,24 @@ public:
     /// Returns: nullopt when there is no record that is whole.
     [[nodiscard]] std::optional<SurveyedTile> find(const TileId& tile, const TileLayout& layout) const;
 
-    /// Swaps the new database in, without its state. Throws Failure.
-    void complete(const std::string& rootBytes, const std::string& sources);
+    /// Takes over what a task has left in the complete database. Returns: whether that is known. Throws Failure.
+    [[nodiscard]] bool takeOver(const TileId& tile) const;
 
-    /// Moves the new files into the complete database, and removes those with the children of `removed`.
-    /// Throws Failure.
-    void merge(const std::string& rootBytes, const std::string& sources, const std::vector<TileId>& removed);
+    /// Swaps the new database in. Throws Failure.
+    void complete(const std::string& rootBytes);
 
 private:
-    static constexpr const char* kStateName = "state";
-
-    void requireOwnFolder(const std::string& folder, bool mayHaveState) const;
-    /// Writes the root file and what it is made from under other names.
-    void writeRoot(const std::string& rootBytes, const std::string& sources) const;
-    void moveRoot() const;
+    void requireOwnFolder(const std::string& folder) const;
     void remove(const std::string& folder) const;
-    [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
-    [[nodiscard]] std::string stateSources() const { return stateFolder() + "/sources.txt"; }
-    [[nodiscard]] std::string recordOf(const TileId& tile) const;
-    [[nodiscard]] std::string mergeFile() const { return stateFolder() + "/merge"; }
-    void carryMergeThrough();
+    [[nodiscard]] static std::string sourcesIn(const std::string& folder);
+    [[nodiscard]] static std::string recordIn(const std::string& folder, const TileId& tile);
 
     std::string _rootFile;
-    std::string _sources;
     /// Without path.
     std::string _tilesName;
     std::string _tiles;
     std::string _partial;
     std::string _old;
-    std::string _oldState;
     TileFiles _files;
     TileFiles _standingFiles;
     std::optional<osgAnalyticBin::support::LockedFile> _lock;

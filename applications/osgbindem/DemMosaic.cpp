@@ -5,10 +5,15 @@
 
 #include "Failure.h"
 #include "RasterLayer.h"
+#include "VoidFill.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -108,8 +113,8 @@ public:
         PixelWindow window;
         /// NaN where they are missing.
         std::vector<double> heights;
-        /// Where one of those was asked for.
-        std::optional<VoidFill::Block> fill;
+        /// What stands in their place, once one of those was asked for.
+        std::vector<float> fill;
     };
 
     /// The blocks of all layers that were read last; once there are too many, all are forgotten.
@@ -119,13 +124,17 @@ public:
         std::map<std::tuple<const DemSource*, int, int>, std::shared_ptr<Block>> blocks;
     };
 
-    /// `coarser`, `hasRivals`: see VoidFill. `blocks`: the memory that it shares with other layers.
-    DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, VoidFill::Coarser coarser, bool hasRivals,
+    /// What coarser layers have at a position, above the ellipsoid; NaN where they have nothing.
+    using Coarser = std::function<double(const PositionDeg& position)>;
+
+    /// `blocks`: the memory that it shares with other layers.
+    DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, Coarser coarser,
               std::shared_ptr<Blocks> blocks)
         : _layer(std::move(layer)),
           _shift(_layer->vertical(), geoid, _layer->path()),
+          _coarser(std::move(coarser)),
           _blocks(std::move(blocks)),
-          _voids{*_layer, [this](int column, int row) { return post(column, row); }, std::move(coarser), hasRivals} {}
+          _voids{grid(), [this](int column, int row) { return post(column, row); }} {}
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
@@ -133,34 +142,33 @@ public:
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
     [[nodiscard]] const VerticalShift& shift() const noexcept { return _shift; }
 
-    /// Above the ellipsoid at a position, bilinear between posts, voids filled. Returns: nullopt where there is no
-    /// data.
+    /// Above the ellipsoid at a position, bilinear between posts; those in wide voids are the coarser layers'.
+    /// Returns: nullopt where no post around has data.
     [[nodiscard]] std::optional<FoundHeight> height(const PositionDeg& position) {
         const auto cell = grid().locate(position);
         if (!cell) return std::nullopt;
-        FoundHeight result;
-        bool isOwn = false;
-        const auto at = [&](int column, int row) {
-            const double height = post(column, row);
-            if (!std::isnan(height)) {
-                isOwn = true;
-                return height;
-            }
-            const FoundHeight found = filled(column, row);
-            isOwn = isOwn || !found.isRival;
-            result.isFilled = result.isFilled || !found.isRival;
-            return found.metres;
-        };
         const double u = cell->eastWeight;
         const double v = cell->secondWeight;
-        // A post without a weight is not asked for: it may be missing.
-        const auto between = [&](int row) {
-            return u > 0.0 ? (1.0 - u) * at(cell->west, row) + u * at(cell->east, row) : at(cell->west, row);
+        FoundHeight result;
+        bool hasAny = false;
+        const auto own = [&](int column, int row, double weight) {
+            if (weight == 0.0) return 0.0;  // it is not asked for: it may be missing
+            const double height = post(column, row);
+            const double found = std::isnan(height) ? filled(column, row) : height;
+            hasAny = hasAny || !std::isnan(found);
+            result.isFilled = result.isFilled || (std::isnan(height) && !std::isnan(found));
+            return found;
         };
-        result.metres = between(cell->first);
-        if (v > 0.0) result.metres = (1.0 - v) * result.metres + v * between(cell->second);
-        // Where all posts around are a rival's, the rival itself is asked.
-        if (std::isnan(result.metres) || !isOwn) return std::nullopt;
+        const std::array<double, 4> heights{
+            own(cell->west, cell->first, (1.0 - u) * (1.0 - v)), own(cell->east, cell->first, u * (1.0 - v)),
+            own(cell->west, cell->second, (1.0 - u) * v), own(cell->east, cell->second, u * v)};
+        if (!hasAny) return std::nullopt;
+        const auto at = [&](std::size_t i, int column, int row) {
+            return std::isnan(heights[i]) ? coarser(column, row) : heights[i];
+        };
+        result.metres = glm::mix(glm::mix(at(0, cell->west, cell->first), at(1, cell->east, cell->first), u),
+                                 glm::mix(at(2, cell->west, cell->second), at(3, cell->east, cell->second), u), v);
+        if (std::isnan(result.metres)) return std::nullopt;
         result.metres += _shift.at(position);
         return result;
     }
@@ -175,18 +183,15 @@ public:
         return isFound;
     }
 
-    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, voids filled.
+    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, voids with what is there.
     /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, Interval& range) {
         bool isComplete = grid().covers(rect);
         Interval own = Interval::none();
         forPosts(grid().touching(rect), [&](int column, int row, double height) {
-            if (std::isnan(height)) {
-                const FoundHeight found = filled(column, row);
-                height = found.metres;
-                isComplete = isComplete && !found.isRival && !std::isnan(height);
-            }
-            own.expandBy(height);
+            if (std::isnan(height)) height = filled(column, row);
+            isComplete = isComplete && !std::isnan(height);
+            own.expandBy(std::isnan(height) ? coarser(column, row) : height);
             return true;
         });
         const Interval shift = _shift.range(rect, grid());
@@ -222,10 +227,16 @@ private:
         const Block& block = *blockWith(column, row);
         return block.heights[block.place(column, row)];
     }
-    [[nodiscard]] FoundHeight filled(int column, int row) {
+    /// What stands at a post without data; NaN in a wide void.
+    [[nodiscard]] double filled(int column, int row) {
         const std::shared_ptr<Block> block = blockWith(column, row);
-        if (!block->fill) block->fill = _voids.filled(block->window);
-        return block->fill->at(block->place(column, row));
+        if (block->fill.empty()) block->fill = _voids.filled(block->window);
+        return static_cast<double>(block->fill[block->place(column, row)]);
+    }
+    /// What the coarser layers have at a post, as heights of this one.
+    [[nodiscard]] double coarser(int column, int row) const {
+        const PositionDeg position = grid().position(column, row);
+        return _coarser(position) - _shift.at(position);
     }
     /// Calls `visit(column, row, height)` for each post, block by block, as long as it returns true.
     template <typename Visit>
@@ -246,15 +257,13 @@ private:
 
     std::unique_ptr<RasterLayer> _layer;
     VerticalShift _shift;
+    Coarser _coarser;
     std::shared_ptr<Blocks> _blocks;
     std::shared_ptr<Block> _last;
     VoidFill _voids;
 };
 
 namespace {
-
-// A raster that is up to so many times as coarse knows more of a void than the posts around it.
-constexpr double kRival = 1.5;
 
 // Half of the memory is GDAL's cache, the other half what the threads keep.
 std::size_t blocksPerThread(const Settings& settings) {
@@ -276,35 +285,21 @@ std::string markText(const RasterLook& look, double posts) {
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
     const auto blocks = std::make_shared<DemSource::Blocks>();
     blocks->most = blocksPerThread(settings);
-    RasterLayer::Layers layers = RasterLayer::elevationOf(settings, layout);
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        VoidFill::Coarser coarser;
-        bool hasRivals = false;
-        if (i + 1 < layers.size()) {
-            coarser = [this, i](int column, int row) { return below(i, _sources[i]->grid().position(column, row)); };
-            hasRivals = layers[i + 1]->spacingDeg() <= kRival * layers[i]->spacingDeg();
-        }
-        _sources.push_back(
-            std::make_unique<DemSource>(std::move(layers[i]), settings.geoid, std::move(coarser), hasRivals, blocks));
+    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
+        const auto coarser = [this, next = _sources.size() + 1](const PositionDeg& position) {
+            const auto found = heightFrom(next, position);
+            return found ? found->metres : std::nan("");
+        };
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer), settings.geoid, coarser, blocks));
     }
 }
 
 DemMosaic::~DemMosaic() = default;
 
-FoundHeight DemMosaic::below(std::size_t source, const PositionDeg& position) {
-    auto found = heightFrom(source + 1, position);
-    if (!found) return {};
-    const double rivalDeg = kRival * _sources[source]->layer().spacingDeg();
-    found->metres -= _sources[source]->shift().at(position);
-    found->isRival = !found->isFilled && _sources[found->source]->layer().spacingDeg() <= rivalDeg;
-    return *found;
-}
-
 std::optional<FoundHeight> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
         auto found = _sources[i]->height(position);
         if (!found) continue;
-        found->source = i;
         const double own = _sources[i]->layer().share(position);
         if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);

@@ -6,7 +6,6 @@
 #include "RasterGrid.h"
 #include "Settings.h"
 #include "TileLayout.h"
-#include "VoidFill.h"
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
@@ -22,8 +21,15 @@ using osgAnalyticBin::core::Interval;
 
 class DemSource;
 
-/// All elevation rasters as one: at each position the finest layer that has data there, voids filled from those below
-/// it, its border blended with them, and 0 m where none has.
+/// A height at a place.
+struct FoundHeight {
+    double metres = 0.0;
+    /// No data: interpolated in a narrow void.
+    bool isFilled = false;
+};
+
+/// All elevation rasters as one: at each position the finest layer that has data there, its narrow voids filled, its
+/// border blended with those below it, and 0 m where none has.
 /// Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
@@ -64,9 +70,6 @@ public:
 private:
     /// Of the layers from this one on, finest first; nullopt where none of them has data.
     [[nodiscard]] std::optional<FoundHeight> heightFrom(std::size_t source, const PositionDeg& position);
-
-    /// What the coarser layers have, as heights of this one.
-    [[nodiscard]] FoundHeight below(std::size_t source, const PositionDeg& position);
 
     std::vector<std::unique_ptr<DemSource>> _sources;
 };

@@ -72,8 +72,7 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
     }
     throwIfStopRequested();
     if (!_skirts.hasChildren(tile)) {
-        SurveyedTile leaf = surveyAlone(tile);
-        leaf.range = _mosaic.range(tile.rect());
+        SurveyedTile leaf = surveyLeaf(tile);
         if (_leafDone) _leafDone(tile);
         return leaf;
     }
@@ -83,7 +82,7 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
     return surveyed;
 }
 
-SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
+SurveyedTile TileBuilder::surveyLeaf(const TileId& tile) {
     SurveyedTile surveyed = begun(tile);
     // Tiles beside a region are there to surround it.
     const bool isCounted = _layout.isInRegion(tile);
@@ -103,6 +102,7 @@ SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
             }
         }
     }
+    surveyed.range = _mosaic.range(rect);
     finishSurvey(surveyed);
     return surveyed;
 }

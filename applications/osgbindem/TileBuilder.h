@@ -110,17 +110,12 @@ public:
     /// Writes all files below the tile. Throws Failure, Interrupted.
     [[nodiscard]] SurveyedTile survey(const TileId& tile);
 
-    /// What the rasters say of a tile itself: neither what lies between its posts nor what is below it.
-    [[nodiscard]] SurveyedTile surveyAlone(const TileId& tile);
-
     /// Surveys the tile and makes its mesh. Throws Failure, Interrupted.
     [[nodiscard]] BuiltTile build(const TileId& tile);
 
-    [[nodiscard]] SkirtMeasure& skirts() noexcept { return _skirts; }
-    [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
-
 private:
     [[nodiscard]] SurveyedTile begun(const TileId& tile) const;
+    [[nodiscard]] SurveyedTile surveyLeaf(const TileId& tile);
     /// Takes a post from the rasters, in whole steps; columns and rows of the ring around the tile are -1 and cells
     /// + 1.
     std::optional<FoundHeight> samplePost(SurveyedTile& tile, int column, int row);

@@ -83,16 +83,9 @@ ExitCode run(int argc, char** argv) {
     if (!settings) return kSucceeded;
     const std::unique_ptr<Ranks> ranks = joinRanks();
     setSpeaker(ranks->isFirst());  // launcher and library may not know each other
-    if (ranks->count() > 1 && settings->update) {
-        throw osgAnalyticBin::support::UsageError("--update is the work of one process; run it without mpirun");
-    }
     if (!settings->threads) settings->threads = threadsPerRank(*ranks);
     prepareProcess(*settings);
-    if (settings->update) {
-        osgbindem::updateDatabase(*settings);
-    } else {
-        osgbindem::buildDatabase(*settings, *ranks);
-    }
+    osgbindem::buildDatabase(*settings, *ranks);
     return kSucceeded;
 }
 
