@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseBuilder.h"
+#include "ImageMosaic.h"
 #include "RasterLayer.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -43,23 +44,19 @@ void describeFile(const std::string& path, std::ostream& out) {
     if (isThere) out << ' ' << status.st_size << ' ' << status.st_mtim.tv_sec << '.' << status.st_mtim.tv_nsec;
 }
 
-/// Rasters of all layers in the order of the command line, a line each.
-void describeRasters(const RasterLayer::Layers& layers, const char* kind, std::ostream& out) {
-    std::map<std::size_t, const RasterLayer::Member*> members;
-    for (const auto& layer : layers)
-        for (const RasterLayer::Member& member : layer->members()) members[member.number] = &member;
-    for (const auto& [number, member] : members) {
-        // Where heights or colours may depend on the raster: up to the next posts of finer ones.
-        const RectDeg area = member->grid.extent().grownBy(4.0 * member->grid.coarsestDeg());
-        out << kind << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << ' '
-            << wholePath(member->file.input.path) << ", " << member->grid.resolutionDeg() << " degrees, blended over ";
-        member->band.describe(out);
-        out << ", scale " << member->file.input.metresPerUnit.value_or(0.0);
-        // A raster may be made of many files: a mosaic, or one with overviews beside it.
-        const CPLStringList files(member->file.file->GetFileList());
-        for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);
-        out << '\n';
-    }
+/// Whatever of a raster decides what is made of it, in a line. `band`: of elevation.
+void describeRaster(const RasterFile& raster, const char* kind, const BlendBand& band, std::ostream& out) {
+    // Where heights or colours may depend on the raster: up to the next posts of finer ones.
+    const RectDeg area = raster.extent.grownBy(4.0 * std::max(raster.eastDeg, raster.northDeg));
+    out << kind << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << ' '
+        << wholePath(raster.input.path) << ", " << raster.eastDeg << ' ' << raster.northDeg
+        << " degrees, blended over ";
+    band.describe(out);
+    out << ", scale " << raster.input.metresPerUnit.value_or(0.0);
+    // A raster may be made of many files: a mosaic, or one with overviews beside it.
+    const CPLStringList files(raster.file->GetFileList());
+    for (int i = 0; i < files.Count(); ++i) describeFile(files[i], out);
+    out << '\n';
 }
 
 struct Raster {
@@ -136,10 +133,10 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         out << '\n';
     }
     if (settings.band) out << "band " << *settings.band << '\n';
-    for (const std::string& word : settings.config) out << "GDAL " << word << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    describeRasters(RasterLayer::elevationOf(settings, &layout), kElevation, out);
-    describeRasters(RasterLayer::imagesOf(settings), kImage, out);
+    for (const auto& layer : RasterLayer::elevationOf(settings, &layout))
+        describeRaster(layer->file(), kElevation, layer->band(), out);
+    for (const RasterFile& image : ImageMosaic::imagesOf(settings)) describeRaster(image, kImage, {}, out);
     return out.str();
 }
 

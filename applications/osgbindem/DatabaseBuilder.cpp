@@ -194,15 +194,15 @@ std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& pl
 void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder) {
     const bool isSame = folder.isStateOf(sources);
     const std::size_t done = folder.doneCount();
-    if (isSame && !settings.restart) {
+    if (isSame) {
         if (done > 0 && !settings.quiet) {
             std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
         }
         return;
     }
     if (done > 0 && !settings.quiet) {
-        std::cout << "starts again: \"" << folder.partial() << "\" was "
-                  << (isSame ? "to be removed" : "built from other settings or rasters") << std::endl;
+        std::cout << "starts again: \"" << folder.partial() << "\" was built from other settings or rasters"
+                  << std::endl;
     }
     folder.clear();
     folder.beginState(sources);
@@ -216,22 +216,15 @@ std::string whatIsKept(const DatabaseFolder& folder, std::size_t parts) {
            "\"; the same command goes on with them";
 }
 
-std::string placeOf(const Tally::Extreme& extreme) {
-    const double latitude = extreme.position.latitudeDeg;
-    const double longitude = std::remainder(extreme.position.longitudeDeg, 360.0);
-    return CPLSPrintf("%.1f m (%.4f %c, %.4f %c)", extreme.metres, std::abs(latitude), latitude < 0.0 ? 'S' : 'N',
-                      std::abs(longitude), longitude < 0.0 ? 'W' : 'E');
-}
-
 /// Says what was built, in lines, and warns where data is missing. `seconds`: the time that it took.
-void tell(const Tally& tally, const std::string& name, int startLevel, double seconds) {
+void tell(const Tally& tally, const Interval& range, const std::string& name, int startLevel, double seconds) {
     std::cout << name
               << CPLSPrintf(": %.0f tiles in levels %d to %.0f, %.0f files, %.1f MiB, %.1f s", tally.tiles, startLevel,
                             tally.deepest, tally.files, std::ldexp(tally.bytes, -20), seconds);
-    if (tally.missing < tally.posts)
-        std::cout << "\nheights from " << placeOf(tally.lowest) << " to " << placeOf(tally.highest);
-    std::cout << CPLSPrintf("; of %.0f posts, %.0f are filled voids and %.0f are at 0 m without data", tally.posts,
-                            tally.filled, tally.missing)
+    std::cout << CPLSPrintf(
+                     "\nheights from %.1f to %.1f m; of %.0f posts, %.0f are filled voids and %.0f are at 0 m "
+                     "without data",
+                     range.lower, range.upper, tally.posts, tally.filled, tally.missing)
               << std::endl;
     if (tally.missing == 0.0) return;
     std::cerr << CPLSPrintf(
@@ -375,11 +368,15 @@ void buildWith(const Settings& given, const Ranks& ranks) {
         progress.finish();
         if (settings.quiet) return;
         Tally tally;
-        for (const BuiltTile& tile : starts) tally.add(tile.survey.tally);
+        Interval range = Interval::none();
+        for (const BuiltTile& tile : starts) {
+            tally.add(tile.survey.tally);
+            range = range.united(tile.survey.range);
+        }
         ++tally.files;
         tally.bytes += static_cast<double>(root.size());
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-        tell(tally, settings.output, layout.startLevel(), time.count());
+        tell(tally, range, settings.output, layout.startLevel(), time.count());
     } catch (const Interrupted&) {
         throw Interrupted("interrupted" + whatIsKept(folder, plan.size()));
     } catch (const Failure& failure) {

@@ -131,7 +131,7 @@ public:
     DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, Coarser coarser,
               std::shared_ptr<Blocks> blocks)
         : _layer(std::move(layer)),
-          _shift(_layer->vertical(), geoid, _layer->path()),
+          _shift(_layer->file().vertical, geoid, _layer->file().input.path),
           _coarser(std::move(coarser)),
           _blocks(std::move(blocks)),
           _voids{grid(), [this](int column, int row) { return post(column, row); }} {}
@@ -217,7 +217,7 @@ private:
         const CPLErr error = _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, west, first, window.width,
                                                                           window.height, heights.data(), window.width,
                                                                           window.height, GDT_Float64, 0, 0, nullptr);
-        if (error != CE_None) throw Failure("cannot read \"" + _layer->path() + "\": " + gdalMessage());
+        if (error != CE_None) throw Failure("cannot read \"" + _layer->file().input.path + "\": " + gdalMessage());
         if (_blocks->blocks.size() >= _blocks->most) _blocks->blocks.clear();
         _last = std::make_shared<Block>(Block{window, std::move(heights), {}});
         _blocks->blocks.emplace(place, _last);
@@ -300,7 +300,7 @@ std::optional<FoundHeight> DemMosaic::heightFrom(std::size_t source, const Posit
     for (std::size_t i = source; i < _sources.size(); ++i) {
         auto found = _sources[i]->height(position);
         if (!found) continue;
-        const double own = _sources[i]->layer().share(position);
+        const double own = _sources[i]->layer().band().share(position);
         if (own == 1.0) return found;
         const auto coarser = heightFrom(i + 1, position);
         if (coarser) found->metres = coarser->metres + own * (found->metres - coarser->metres);
@@ -314,7 +314,7 @@ Interval DemMosaic::range(const RectDeg& rect) {
     bool isCovered = false;
     for (std::size_t i = 0; i < _sources.size(); ++i) {
         const bool isComplete = _sources[i]->addRange(rect, range);
-        if (isComplete && !_sources[i]->layer().isBlendedIn(rect)) return range;
+        if (isComplete && !_sources[i]->layer().band().touches(rect)) return range;
         isCovered = isCovered || isComplete;
     }
     if (!isCovered) range.expandBy(0.0);
@@ -335,21 +335,18 @@ bool DemMosaic::hasFinerData(const RectDeg& rect, double spacingDeg) {
 
 std::vector<std::string> DemMosaic::inspect() {
     std::map<std::string, std::vector<std::string>> notes;  // each with the paths of what it is true of
-    for (std::size_t i = 0; i < _sources.size(); ++i) {
-        for (const RasterLayer::Member& member : _sources[i]->layer().members()) {
-            const RasterFile& file = member.file;
-            const RasterLook look = file.look();
-            const std::string marks = look.marks > 0.0 ? markText(look, file.posts()) : std::string();
-            if (look.missing == look.posts) {
-                throw Failure("no heights in \"" + file.input.path + "\", only missing data" + marks +
-                              "; leave it out, or see --nodata, --height-unit and --radii");
-            }
-            for (const std::string& note : file.notes) notes[note].push_back(file.input.path);
-            const VerticalShift& shift = _sources[i]->shift();
-            if (!shift.isNone())
-                notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.input.path);
-            if (!marks.empty()) notes["missing data" + marks].push_back(file.input.path);
+    for (const auto& source : _sources) {
+        const RasterFile& file = source->layer().file();
+        const RasterLook look = file.look();
+        const std::string marks = look.marks > 0.0 ? markText(look, file.posts()) : std::string();
+        if (look.missing == look.posts) {
+            throw Failure("no heights in \"" + file.input.path + "\", only missing data" + marks +
+                          "; leave it out, or see --nodata, --height-unit and --radii");
         }
+        for (const std::string& note : file.notes) notes[note].push_back(file.input.path);
+        const VerticalShift& shift = source->shift();
+        if (!shift.isNone()) notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.input.path);
+        if (!marks.empty()) notes["missing data" + marks].push_back(file.input.path);
     }
     std::vector<std::string> lines;
     for (const auto& [note, paths] : notes) {
@@ -374,7 +371,7 @@ double DemMosaic::posts(const RectDeg& rect) const noexcept {
     double sum = 0.0;
     for (const auto& source : _sources) {
         const double resolution = source->grid().resolutionDeg();
-        sum += source->layer().overlap(rect) / resolution / resolution;  // whose square may be too small for a number
+        sum += source->grid().overlap(rect) / resolution / resolution;  // whose square may be too small for a number
     }
     return sum;
 }

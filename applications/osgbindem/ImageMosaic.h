@@ -3,29 +3,28 @@
 
 #pragma once
 
+#include "RasterFile.h"
 #include "Settings.h"
 #include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <osg/Image>
 
-#include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 namespace osgbindem {
 
-struct Cover;
-class ImageSource;
-
-/// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, its
-/// border blended with coarser ones, and the colours of the relief where none has.
-/// Of equally fine images the one named first counts. Not for use by several threads: each has its own.
+/// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, and
+/// the colours of the relief where none has. GDAL warps them. Of equally fine images the one named first counts. Not
+/// for use by several threads: each has its own.
 class ImageMosaic final {
 public:
     /// Throws Failure.
-    explicit ImageMosaic(const Settings& settings);
-    ~ImageMosaic();
+    explicit ImageMosaic(const Settings& settings) : _images(imagesOf(settings)) {}
+
+    /// All images of the command line, finest first. Throws Failure.
+    [[nodiscard]] static std::vector<RasterFile> imagesOf(const Settings& settings);
 
     /// Texels along the edge of a tile's texture, a power of two: no more than the finest image there has, nor fewer
     /// than the tile has cells where images leave a part of it to the relief. Returns: 0 where there is no image.
@@ -36,11 +35,10 @@ public:
     [[nodiscard]] osg::ref_ptr<osg::Image> texture(const TileId& tile, const osgAnalyticBin::TerrainGrid& grid);
 
 private:
-    /// Of the layers with a part in the tile from this one on, finest first.
-    [[nodiscard]] Cover sample(std::size_t first, const PositionDeg& position) const noexcept;
+    /// What all images have of a tile, row by row from the north: red, green, blue and alpha.
+    [[nodiscard]] std::vector<std::uint8_t> warped(const RectDeg& rect, int size);
 
-    std::vector<std::unique_ptr<ImageSource>> _layers;
-    std::vector<const ImageSource*> _loaded;
+    std::vector<RasterFile> _images;
 };
 
 }  // namespace osgbindem

@@ -33,8 +33,6 @@ class HeightBand final : public GDALRasterBand {
 public:
     HeightBand(GDALDataset& dataset, GDALRasterBand& numbers, const HeightCode& code)
         : _numbers(numbers), _code(code), _isSingle(numbers.GetRasterDataType() == GDT_Float32) {
-        const char* type = numbers.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
-        _isSignedByte = type != nullptr && EQUAL(type, "SIGNEDBYTE");
         poDS = &dataset;
         nBand = 1;
         eDataType = GDT_Float64;
@@ -89,8 +87,7 @@ protected:
 private:
     static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-    double decoded(double stored) {
-        const double number = _isSignedByte && stored > 127.0 ? stored - 256.0 : stored;
+    double decoded(double number) {
         const auto same = static_cast<float>(_code.nodata.value_or(0.0));
         const bool isMissing =
             std::isnan(number) ||
@@ -110,7 +107,6 @@ private:
     GDALRasterBand& _numbers;
     HeightCode _code;
     bool _isSingle;
-    bool _isSignedByte;
     RasterLook _look;
 };
 

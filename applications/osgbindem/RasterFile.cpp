@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <dlfcn.h>
 #include <iostream>
 #include <string_view>
 #include <utility>
@@ -52,15 +50,8 @@ void requireAllRows(GDALDataset& dataset, const std::string& path) {
     }
 }
 
-/// Keeps HDF5, which GDAL loads, from printing its errors, in the calling thread.
-void silenceHdf5() {
-    using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
-    if (void* setAuto = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(setAuto)(0, nullptr, nullptr);
-}
-
 /// `overview`: its number, or -1 for the raster itself.
 GdalDataset opened(const std::string& path, int overview = -1) {
-    silenceHdf5();
     CPLStringList words;
     if (overview >= 0) words.SetNameValue("OVERVIEW_LEVEL", std::to_string(overview).c_str());
     GdalDataset dataset(
@@ -158,14 +149,6 @@ RectDeg extentOf(const Places& places, OGRCoordinateTransformation& way) {
     if (extent.east <= extent.west) extent.east += 360.0;
     if (extent.east - extent.west > 360.0 - kLeastGap) return {-180.0, extent.south, 180.0, extent.north};
     return extent;
-}
-
-/// So many posts along a whole circle that they are as close as the spacing, or up to a 64th closer: rasters whose
-/// spacings are almost the same have the same number.
-double roundedSpacing(double circleDeg, double spacingDeg) {
-    const double posts = circleDeg / spacingDeg;
-    const double step = std::exp2(std::floor(std::log2(posts)) - 6.0);
-    return circleDeg / (std::ceil(posts / step) * step);
 }
 
 }  // namespace
@@ -314,8 +297,8 @@ void RasterFile::placeWarped() {
     }
     if (extent.west > extent.east || eastward.empty() || northward.empty()) throw noWayToGlobe();
     std::sort(northward.begin(), northward.end());
-    eastDeg = roundedSpacing(360.0, *std::min_element(eastward.begin(), eastward.end()));
-    northDeg = roundedSpacing(180.0, northward[northward.size() / 2]);
+    eastDeg = *std::min_element(eastward.begin(), eastward.end());
+    northDeg = northward[northward.size() / 2];
 }
 
 /// The number of the coarsest that is as fine as needed; -1 without one.

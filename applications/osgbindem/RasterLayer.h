@@ -7,11 +7,10 @@
 #include "Settings.h"
 #include "TileLayout.h"
 
-#include <cstddef>
+#include <algorithm>
 #include <iosfwd>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace osgbindem {
@@ -50,62 +49,33 @@ private:
     std::vector<RectDeg> _edges;
 };
 
-/// Rasters of one grid that meet, as one raster in degrees of the globe. GDAL makes it: they are a mosaic, and what is
-/// not in degrees of the globe is warped, at its own spacing or to the posts of tiles that are as fine, which then have
-/// GDAL's own bilinear values. Of rasters with data at the same place the one named first counts. Not for use by
-/// several threads.
+/// An elevation raster in degrees of the globe. GDAL warps what is in another system, at its own spacing or to the
+/// posts of tiles that are as fine, which then have GDAL's own bilinear values. Not for use by several threads.
 class RasterLayer final {
 public:
     using Layers = std::vector<std::unique_ptr<RasterLayer>>;
 
-    /// Opens all elevation rasters of the command line; finest layers first, of equally fine ones the one named first.
+    /// Opens all elevation rasters of the command line; finest first, of equally fine ones the one named first.
     /// For tiles of the layout where there is one: then of the overviews that are as fine, where settings allow them,
     /// and warped to posts of tiles. Throws Failure.
     [[nodiscard]] static Layers elevationOf(const Settings& settings, const TileLayout* layout);
-    /// The same of all images. Throws Failure.
-    [[nodiscard]] static Layers imagesOf(const Settings& settings);
-
-    /// A raster, its number on the command line and the grid of the layer's posts within it.
-    struct Member {
-        std::size_t number = 0;
-        RasterFile file;
-        RasterGrid grid;
-        BlendBand band;
-    };
-    using Members = std::vector<Member>;
 
     /// `tileCells`: warps to posts of tiles with so many cells. Throws Failure.
-    RasterLayer(Members members, std::optional<int> tileCells);
+    RasterLayer(RasterFile file, std::optional<int> tileCells);
 
-    [[nodiscard]] const Members& members() const noexcept { return _members; }
-    [[nodiscard]] const std::string& path() const noexcept { return first().input.path; }
-    [[nodiscard]] const std::string& vertical() const noexcept { return first().vertical; }
-
-    [[nodiscard]] GDALDataset& dataset() const noexcept;
+    [[nodiscard]] const RasterFile& file() const noexcept { return _file; }
+    [[nodiscard]] GDALDataset& dataset() const noexcept { return _warped ? *_warped : *_file.dataset; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _grid; }
-    /// The distance between posts of the finest raster.
-    [[nodiscard]] double spacingDeg() const noexcept { return _spacingDeg; }
-
-    /// The sum of the areas in square degrees that the layer's rasters have in common with the rectangle.
-    [[nodiscard]] double overlap(const RectDeg& rect) const noexcept;
-
-    /// The layer's share of heights or colours, less than 1 in the bands at its rasters' borders; and whether a band
-    /// may reach into the rectangle.
-    [[nodiscard]] double share(const PositionDeg& position) const noexcept;
-    [[nodiscard]] bool isBlendedIn(const RectDeg& rect) const noexcept;
+    /// Between posts of the file, the smaller distance.
+    [[nodiscard]] double spacingDeg() const noexcept { return std::min(_file.eastDeg, _file.northDeg); }
+    /// Where heights give way to coarser ones.
+    [[nodiscard]] const BlendBand& band() const noexcept { return _band; }
 
 private:
-    [[nodiscard]] static Layers layersOf(const Settings& settings, const std::vector<DemInput>& rasters,
-                                         bool areElevation, double spacingDeg, std::optional<int> tileCells);
-    [[nodiscard]] const RasterFile& first() const noexcept { return _members.front().file; }
-    void warp(std::optional<int> tileCells);
-
-    Members _members;
-    /// Of several members, and of what is warped.
-    GdalDataset _mosaic;
+    RasterFile _file;
     GdalDataset _warped;
-    double _spacingDeg;
     RasterGrid _grid;
+    BlendBand _band;
 };
 
 }  // namespace osgbindem

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 namespace osgbindem {
 
@@ -32,48 +33,23 @@ constexpr const char* kExamples =
     "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
     "(gdal_translate -co TILED=YES).\n"
     "A run that was interrupted, killed or out of disk space leaves the finished parts in earth_tiles.partial. The\n"
-    "same command resumes from them; another command starts again. Remove the folder if you do not want them.\n"
+    "same command resumes from them; another command starts again. Remove the folder to start anew.\n"
     "A finished database is replaced only with --overwrite, and brought up to date with --update.\n"
     "Under mpirun, ranks share the parts: mpirun -n 8 osgbindem world.tif -o earth.osgb, with the output in a folder\n"
     "that all of them see.\n"
     "Exit codes: 0 the database is complete, 1 an error, 2 a wrong command line, 130 interrupted.";
 
-/// Returns: nullopt for what is no unit.
-std::optional<double> metresPerUnit(const std::string& word) {
-    constexpr double kMetresPerFoot = 0.3048;
-    if (word == "m") return 1.0;
-    if (word == "ft") return kMetresPerFoot;
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (end == word.c_str() || *end != '\0' || !std::isfinite(value) || value == 0.0) return std::nullopt;
-    return value;
-}
-
-/// `rasters`, `units`: words of the command line, as they were typed.
-std::vector<DemInput> demsOf(std::vector<std::string> rasters, const std::vector<std::string>& units) {
-    std::vector<double> scales;
-    bool isRaster = false;
-    for (const std::string& word : units) {
-        // Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
-        const auto scale = isRaster ? std::nullopt : metresPerUnit(word);
-        isRaster = !scale;
-        if (scale) {
-            scales.push_back(*scale);
-        } else if (mayExist(word)) {
-            rasters.push_back(word);
-        } else {
-            throw UsageError("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
-        }
-    }
+/// `units`: metres per unit.
+std::vector<DemInput> demsOf(const std::vector<std::string>& rasters, const std::vector<double>& units) {
     if (rasters.empty()) throw UsageError("no elevation raster on the command line; name at least one");
-    if (scales.size() > 1 && scales.size() != rasters.size()) {
-        throw UsageError(std::to_string(scales.size()) + " units in --height-unit for " +
+    if (units.size() > 1 && units.size() != rasters.size()) {
+        throw UsageError(std::to_string(units.size()) + " units in --height-unit for " +
                          std::to_string(rasters.size()) + " rasters; give one for all or one for each");
     }
     std::vector<DemInput> dems;
     for (std::size_t i = 0; i < rasters.size(); ++i) {
         dems.push_back({rasters[i]});
-        if (!scales.empty()) dems.back().metresPerUnit = scales[scales.size() == 1 ? 0 : i];
+        if (!units.empty()) dems.back().metresPerUnit = units[units.size() == 1 ? 0 : i];
     }
     return dems;
 }
@@ -109,7 +85,7 @@ void requireFiles(const Settings& settings) {
     }
 }
 
-void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<std::string>& units) {
+void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<double>& units) {
     app.footer(kExamples);
     app.add_option(
         "DEM", dems,
@@ -119,7 +95,11 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
     app.add_option("--height-unit", units,
                    "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default: the "
                    "unit in the raster, else m)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->transform(CLI::Transformer(std::map<std::string, std::string>{{"m", "1"}, {"ft", "0.3048"}}))
+        ->check([](const std::string& word) {
+            return std::isnormal(std::atof(word.c_str())) ? "" : word + " is no unit; give m, ft or metres per unit";
+        });
     app.add_option("-b,--band", settings.band, "band of the elevation rasters with the heights (default: the first)")
         ->check(CLI::Range(1, 65535));
     app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");
@@ -133,7 +113,7 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
         "that PROJ reads (default: the vertical reference in the raster, else none)");
     app.add_option(
            "--blend", settings.blend,
-           "width in metres of the band inside the border of a raster or an image where it blends into\ncoarser "
+           "width in metres of the band inside the border of a raster where it blends into\ncoarser "
            "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)")
         ->check(within(0.0, 1e6));
     app.add_option("--levels", settings.levels,
@@ -174,20 +154,12 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
                  "where they are shown");
     auto* overwrite = app.add_flag("--overwrite", settings.overwrite,
                                    "replace a finished database OUTPUT when the new one is complete");
-    auto* restart = app.add_flag("--restart", settings.restart, "do not resume an interrupted run");
     app.add_flag(
            "--update", settings.update,
            "build only the tiles of the database OUTPUT that differ because rasters\nor images were added, replaced "
            "or left out since; all have to be named")
-        ->excludes(restart)
         ->excludes(overwrite);
     app.add_flag("-q,--quiet", settings.quiet, "show no progress, summary or warnings");
-    app.add_option("--config", settings.config,
-                   "an option of GDAL's configuration: KEY VALUE; may be given several times")
-        ->type_size(2)
-        ->expected(1)
-        ->take_all()
-        ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -197,7 +169,7 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
     setRadii(settings, wgs84->getRadiusEquator(), wgs84->getRadiusPolar());
     std::vector<std::string> dems;
-    std::vector<std::string> units;
+    std::vector<double> units;
     CLI::App app{kDescription, "osgbindem"};
     declare(app, settings, dems, units);
     std::vector<const char*> words(argv, argv + argc);

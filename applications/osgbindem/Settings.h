@@ -35,8 +35,6 @@ struct Settings {
     std::vector<std::string> images;
     /// The band that has the heights in elevation rasters.
     std::optional<int> band;
-    /// GDAL's configuration: names, each followed by its value.
-    std::vector<std::string> config;
     std::string output;
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Whether the radii are those of a default osg::EllipsoidModel.
@@ -63,8 +61,6 @@ struct Settings {
     bool quiet = false;
     /// Whether a finished database of the output's name may be replaced.
     bool overwrite = false;
-    /// Whether to forget what an earlier run has left.
-    bool restart = false;
 };
 
 /// Reads the command line, the program's name first. No raster is opened.

@@ -87,7 +87,6 @@ SurveyedTile TileBuilder::surveyLeaf(const TileId& tile) {
     // Tiles beside a region are there to surround it.
     const bool isCounted = _layout.isInRegion(tile);
     const RectDeg rect = tile.rect();
-    const double spacing = _layout.spacingDeg(tile.level);
     const int cells = _layout.cells();
     for (int row = 0; row <= cells; ++row) {
         for (int column = 0; column <= cells; ++column) {
@@ -96,10 +95,6 @@ SurveyedTile TileBuilder::surveyLeaf(const TileId& tile) {
             ++surveyed.tally.posts;
             if (!found) ++surveyed.tally.missing;
             if (found && found->isFilled) ++surveyed.tally.filled;
-            if (found) {
-                surveyed.tally.addHeight(surveyed.grid.height(column, row),
-                                         {rect.south + row * spacing, rect.west + column * spacing});
-            }
         }
     }
     surveyed.range = _mosaic.range(rect);

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,18 +36,6 @@ struct Tally {
     double filled = 0.0;
     double missing = 0.0;
 
-    struct Extreme {
-        double metres = 0.0;
-        PositionDeg position;
-    };
-    Extreme lowest{std::numeric_limits<double>::infinity(), {}};
-    Extreme highest{-std::numeric_limits<double>::infinity(), {}};
-
-    /// Of a post with data or in a void.
-    void addHeight(double metres, const PositionDeg& position) noexcept {
-        if (metres < lowest.metres) lowest = {metres, position};
-        if (metres > highest.metres) highest = {metres, position};
-    }
     void add(const Tally& other) noexcept {
         tiles += other.tiles;
         deepest = std::max(deepest, other.deepest);
@@ -57,8 +44,6 @@ struct Tally {
         posts += other.posts;
         filled += other.filled;
         missing += other.missing;
-        if (other.lowest.metres < lowest.metres) lowest = other.lowest;
-        if (other.highest.metres > highest.metres) highest = other.highest;
     }
 };
 

@@ -40,13 +40,13 @@ GdalDataset planeOf(std::vector<Number>& numbers, int width, GDALDataType type) 
     return plane;
 }
 
-/// Whether posts are farther than half of kWidest from all that are marked.
-std::vector<GByte> farFrom(std::vector<GByte> marks, int width) {
+/// Whether posts are farther away than `reach` from all that are marked.
+std::vector<GByte> farFrom(std::vector<GByte> marks, int width, int reach) {
     std::vector<GByte> isFar(marks.size());
     const GdalDataset marked = planeOf(marks, width, GDT_Byte);
     const GdalDataset result = planeOf(isFar, width, GDT_Byte);
-    CPLStringList options(CSLTokenizeString(
-        CPLSPrintf("VALUES=%d MAXDIST=%d FIXED_BUF_VAL=0 NODATA=%d", kYes, VoidFill::kWidest / 2, kYes)));
+    CPLStringList options(
+        CSLTokenizeString(CPLSPrintf("VALUES=%d MAXDIST=%d FIXED_BUF_VAL=0 NODATA=%d", kYes, reach, kYes)));
     require(GDALComputeProximity(marked->GetRasterBand(1), result->GetRasterBand(1), options.List(), nullptr, nullptr));
     return isFar;
 }
@@ -67,8 +67,11 @@ std::vector<float> VoidFill::filled(const PixelWindow& block) const {
     for (const float height : heights) isKnown.push_back(std::isnan(height) ? 0 : kYes);
     if (std::find(isKnown.begin(), isKnown.end(), kYes) == isKnown.end())
         return std::vector(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kVoid);
-    // Discs fit where posts are far from data; where all of these are far is not reached by a disc.
-    const std::vector<GByte> isNarrow = farFrom(farFrom(isKnown, width), width);
+    // Discs fit in between the data where posts are far from it. What they do not reach is narrow, a rim apart that is
+    // jagged by posts.
+    constexpr int kHalf = kWidest / 2;
+    constexpr int kJags = 2;
+    const std::vector<GByte> isNarrow = farFrom(farFrom(isKnown, width, kHalf), width, kHalf + kJags);
     std::vector<float> values = heights;
     std::replace_if(
         values.begin(), values.end(), [](float height) { return std::isnan(height); }, 0.0F);

@@ -65,9 +65,6 @@ void setSpeaker(bool is) {
 }
 
 void prepareProcess(const Settings& settings) {
-    for (std::size_t i = 0; i + 1 < settings.config.size(); i += 2) {
-        CPLSetConfigOption(settings.config[i].c_str(), settings.config[i + 1].c_str());
-    }
     GDALAllRegister();
     GDALSetCacheMax64((GIntBig{settings.memoryMib} << 20) / 2);
     // The user's environment may have them otherwise.

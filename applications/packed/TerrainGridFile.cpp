@@ -12,8 +12,6 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr std::uint8_t kVersion = 2;
-// Without relief.
-constexpr std::uint8_t kFirstVersion = 1;
 constexpr std::int64_t kMostCells = 240;  // whose vertices 16 bits can count
 constexpr std::int64_t kMostColumns = std::int64_t{1} << 40;
 constexpr std::int64_t kMostSteps = std::int64_t{1} << 30;
@@ -124,13 +122,13 @@ void writeHead(Writer& writer, const TerrainGrid& grid) {
     }
 }
 
-TerrainGrid readHead(Reader& reader, std::uint8_t version) {
+TerrainGrid readHead(Reader& reader) {
     constexpr double kLeastRadius = 1e-3;
     constexpr double kMostRadius = 1e12;
     constexpr double kMostFlat = 100.0;  // one radius over the other; beyond, the poles have no finite place
     constexpr double kLeastQuantum = 1e-9;
     TerrainGrid grid;
-    grid.relief = version > kFirstVersion && reader.byte() != 0;
+    grid.relief = reader.byte() != 0;
     const double equatorial = reader.real(kLeastRadius, kMostRadius);
     const double polar = reader.real(equatorial / kMostFlat, equatorial * kMostFlat);
     grid.ellipsoid = core::Ellipsoid(equatorial, polar);
@@ -171,9 +169,8 @@ std::string packed(const TerrainGrid& grid) {
 
 std::optional<TerrainGrid> unpacked(const std::string& bytes) {
     Reader reader(bytes);
-    const std::uint8_t version = reader.byte();
-    if (version != kVersion && version != kFirstVersion) return std::nullopt;
-    TerrainGrid grid = readHead(reader, version);
+    if (reader.byte() != kVersion) return std::nullopt;
+    TerrainGrid grid = readHead(reader);
     if (!reader.isGood() || !rises(grid.colours)) return std::nullopt;
     const auto width = static_cast<std::size_t>(grid.cells + 3);
     grid.heights.reserve(width * width);

@@ -960,6 +960,6 @@ FAULTS = [
           PACKED, "TerrainGrid.*"),
     Fault("relief: snow in the sea", "applications/packed/Relief.cpp", "height <= 0.0 || height <= snowLine", "height <= snowLine", PACKED,
           "TerrainGrid.*"),
-    Fault("relief: packed grids forget it", "applications/packed/TerrainGridFile.cpp", "version > kFirstVersion && reader.byte() != 0",
-          "version > kFirstVersion && reader.byte() > 1", PACKED, "TerrainGrid.*"),
+    Fault("relief: packed grids forget it", "applications/packed/TerrainGridFile.cpp", "grid.relief = reader.byte() != 0",
+          "grid.relief = reader.byte() > 1", PACKED, "TerrainGrid.*"),
 ]

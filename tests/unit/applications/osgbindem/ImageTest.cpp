@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Which colours a database has of several images: the finest, through holes those below, at borders a mixture. The
+// Which colours a database has of several images: the finest, through holes those below. The
 // oracles are the images' own colours, and a database that has none of them.
 
 #include "RasterTest.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 namespace {
@@ -56,7 +55,7 @@ TEST_F(Images, TheFinestCountsWhateverTheOrder) {
     const std::string green = image("green.tif", {12.0, 49.0, 0.05, 60, kGreen});
     const std::string equal = image("equal.tif", {12.0, 49.0, 0.05, 60, kRed});
     for (const Words& images : {Words{blue, red, green}, Words{green, red, blue}, Words{green, equal, blue}}) {
-        const LoadedDatabase database = built(images, {"--blend", "0"});
+        const LoadedDatabase database = built(images);
         EXPECT_EQ(shownAt(database, 58.0, 28.0), kBlue);
         EXPECT_EQ(shownAt(database, 47.5, 13.5), kGreen);
         EXPECT_EQ(shownAt(database, 45.5, 10.5), images[1] == red ? kRed : kBlue);
@@ -148,7 +147,7 @@ TEST_F(Images, HolesShowWhatLiesBelow) {
     const LoadedDatabase relief = built({image("far.tif", {28.0, 58.0, 0.1, 10, kRed})});
     for (const Hole hole : {Hole::Alpha, Hole::Mask, Hole::Nodata, Hole::Palette}) {
         coarse.hole = fine.hole = hole;
-        const LoadedDatabase database = built({image("coarse.tif", coarse), image("fine.tif", fine)}, {"--blend", "0"});
+        const LoadedDatabase database = built({image("coarse.tif", coarse), image("fine.tif", fine)});
         EXPECT_EQ(shownAt(database, 48.0, 14.0), kRed);
         EXPECT_EQ(shownAt(database, 44.0, 17.0), kBlue);
         // A tile without an image has its colours at the posts.
@@ -169,7 +168,7 @@ TEST_F(Images, HolesStayHolesInReducedTextures) {
     fine.colourAt = [](double, double longitudeDeg) { return longitudeDeg > 4.0 ? std::nullopt : std::optional(kRed); };
     for (const Hole hole : {Hole::Alpha, Hole::Mask, Hole::Nodata, Hole::Palette}) {
         fine.hole = hole;
-        const LoadedDatabase database = built({blueGlobe(), image("fine.tif", fine)}, {"--blend", "0"});
+        const LoadedDatabase database = built({blueGlobe(), image("fine.tif", fine)});
         const auto start = std::find_if(database.tiles.begin(), database.tiles.end(), [](const LoadedTile& tile) {
             const Rect r = tile.rect();
             return r.west <= 2.0 && r.south <= 50.0 && r.east >= 6.0 && r.north >= 54.0;
@@ -195,36 +194,6 @@ TEST_F(Images, TilesWithoutAnImageAreAsInADatabaseWithoutImages) {
     EXPECT_GT(textures, 3);
     EXPECT_LT(textures, 12);
     EXPECT_EQ(coloursOf(database.leafAt(58.0, 28.0)).asVector(), coloursOf(plain.leafAt(58.0, 28.0)).asVector());
-}
-
-/// The largest step of one channel from texel to texel, along a parallel across the western border of an inset at 10 E.
-int largestStep(const LoadedDatabase& database) {
-    int largest = 0;
-    Colour before = shownAt(database, 45.0, 7.0);
-    for (double longitude = 7.0; longitude < 13.0; longitude += 0.02) {
-        const Colour here = shownAt(database, 45.0, longitude);
-        for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(here[c] - before[c]));
-        before = here;
-    }
-    return largest;
-}
-
-TEST_F(Images, BordersAreBlended) {
-    const std::string blue = blueGlobe();
-    const std::string inset = image("inset.tif", {10.0, 50.0, 0.02, 500, kRed});
-    const LoadedDatabase blended = built({blue, inset}, {"--blend", "200000"});  // 2.5 degrees of longitude
-    // The mixture is steepest in the middle of the band, 1.5 times its mean: there a texel of 1/45 degree changes by 3.
-    EXPECT_LE(largestStep(blended), 4);
-    EXPECT_EQ(shownAt(blended, 45.0, 7.0), kBlue);
-    EXPECT_EQ(shownAt(blended, 45.0, 13.0), kRed);
-    EXPECT_GE(largestStep(built({blue, inset}, {"--blend", "0"})), 200);
-    // By default the band is an eighth of the side, 57 texels wide.
-    const LoadedDatabase byDefault = built({blue, inset});
-    EXPECT_LE(largestStep(byDefault), 12);
-    EXPECT_EQ(shownAt(byDefault, 45.0, 11.5), kRed);
-    // Relief shows through no band.
-    const LoadedDatabase alone = built({image("red.tif", {10.0, 50.0, 0.02, 250, kRed})}, {"--blend", "200000"});
-    EXPECT_EQ(shownAt(alone, 47.5, 10.1), kRed);
 }
 
 TEST_F(Images, ThreadsChangeNothing) {

@@ -37,13 +37,11 @@ protected:
     const std::string output = file("out/earth.osgb");
 };
 
-// GDAL itself would search a truncated file of text for its rows without end; HDF5 prints a stack of its own.
+// GDAL itself would search a truncated file of text for its rows without end.
 TEST_F(Error, OfTruncatedRasters) {
     std::string text = "ncols 4\nnrows 80000\nxllcorner 10\nyllcorner 0\ncellsize 0.001\n";
     for (int row = 0; row < 2000; ++row) text += "1 2 3 4\n";
     expectBadDem(_folder.write("short.asc", text), "short.asc");
-    const std::string head("\x89HDF\r\n\x1a\n\0\0\0\0\0\x08\x08\0\x04\0\x10\0\0\0\0\0", 24);
-    expectBadDem(_folder.write("short.h5", head + std::string(40, '\0')), "short.h5");
     fs::copy_file(good, file("short.tif"));
     fs::resize_file(file("short.tif"), fs::file_size(good) / 2);
     expectBadDem(file("short.tif"), "short.tif");
@@ -79,11 +77,10 @@ TEST_F(Error, OfTheCommandLine) {
         {{"--lod-factor", "-2"}, "--lod-factor"},
         {{"--radii", "0", "1"}, "--radii"},
         {{"--radii", "1"}, "--radii"},
-        {{"--height-unit", "miles"}, "unknown unit \"miles\""},
-        {{"--height-unit", "0"}, "unknown unit \"0\" in --height-unit"},
+        {{"--height-unit", "miles"}, "--height-unit: miles is no unit"},
+        {{"--height-unit", "0"}, "--height-unit: 0 is no unit"},
         {{"--height-unit", "m", "ft"}, "2 units"},
         {{"--band", "0"}, "--band"},
-        {{"--config", "GDAL_CACHEMAX"}, "--config"},
         {{"--frobnicate"}, "--frobnicate"}};
     for (const auto& [words, what] : wrongOptions) expectError(joined({good, "-o", output}, words), what, 2);
     expectError({}, "--output", 2);
@@ -161,10 +158,10 @@ TEST_F(Said, ProgressAndWhatWasBuiltAndWhatIsMissing) {
         if (latitude == 45.0 && longitude == 90.0) return 3210.0;
         return latitude == 22.5 && longitude == -90.0 ? std::nan("") : 100.0;
     });
-    expectSaid({saved(raster.withNodata(-9999.0)), "--config", "GDAL_CACHEMAX", "100"},
+    expectSaid({saved(raster.withNodata(-9999.0))},
                {"0...10...20...30...40...50...60...70...80...90...100 - done.\n", "128 tiles in levels 0 to 0, 1 files",
-                "heights from 100.0 m (", "to 3210.0 m (45.0000 N, 90.0000 E)", "1 are filled voids", "of 73728 posts",
-                "36864 are at 0 m", "no raster has data for 36864 of 73728 posts"});
+                "heights from 0.0 to 3210.0 m", "1 are filled voids", "of 73728 posts", "36864 are at 0 m",
+                "no raster has data for 36864 of 73728 posts"});
     // --quiet leaves out the warning, too.
     build({file("raster0.tif"), "-o", file("earth.osgb"), "--overwrite"});
 }
@@ -240,9 +237,6 @@ TEST_F(Resume, WhatIsDoneIsNotDoneAgainUnlessItIsMissingOrDamaged) {
 }
 
 TEST_F(Resume, AnotherCommandOrRasterStartsAnew) {
-    EXPECT_EQ(firstLine({"--restart"}).rfind("starts again: ", 0), 0U);
-    expectTheSameFiles();
-    startAgain();
     EXPECT_EQ(firstLine({"--lod-factor", "5"}).rfind("starts again: ", 0), 0U);
     EXPECT_FALSE(fs::exists(partial("")));
     startAgain();

@@ -32,6 +32,7 @@ TerrainGrid rough() {
         }
     }
     grid.colours = {{-10.5F, {1, 2, 3}}, {20.0F, {255, 254, 253}}};
+    grid.relief = true;
     grid.textureSize = 256;
     return grid;
 }
@@ -59,6 +60,7 @@ TEST(TerrainGrid, AllOfItComesBack) {
     ASSERT_EQ(again->colours.size(), 2U);
     EXPECT_EQ(again->colours[0].height, -10.5F);
     EXPECT_EQ(again->colours[1].colour, grid.colours[1].colour);
+    EXPECT_EQ(again->relief, grid.relief);
     EXPECT_EQ(packed(*again), packed(grid));
 }
 
@@ -143,17 +145,4 @@ TEST(TerrainGrid, ReliefHasSnowByHeightAndLatitude) {
     EXPECT_GT(brightness(grid), 230);
     grid.heights.assign(grid.heights.size(), -64 * 5);
     EXPECT_EQ(brightness(grid), 100);
-}
-
-TEST(TerrainGrid, ReliefComesBackAndOlderBytesHaveNone) {
-    TerrainGrid grid = slope(1, 0);
-    ASSERT_TRUE(unpacked(packed(grid)));
-    EXPECT_TRUE(unpacked(packed(grid))->relief);
-    // The first version had no such byte.
-    std::string bytes = packed(grid);
-    bytes[0] = 1;
-    bytes.erase(1, 1);
-    ASSERT_TRUE(unpacked(bytes));
-    EXPECT_FALSE(unpacked(bytes)->relief);
-    EXPECT_EQ(unpacked(bytes)->heights, grid.heights);
 }
