@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -124,15 +123,10 @@ public:
         std::map<std::tuple<const DemSource*, int, int>, std::shared_ptr<Block>> blocks;
     };
 
-    /// What coarser layers have at a position, above the ellipsoid; NaN where they have nothing.
-    using Coarser = std::function<double(const PositionDeg& position)>;
-
     /// `blocks`: the memory that it shares with other layers.
-    DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, Coarser coarser,
-              std::shared_ptr<Blocks> blocks)
+    DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, std::shared_ptr<Blocks> blocks)
         : _layer(std::move(layer)),
           _shift(_layer->file().vertical, geoid, _layer->file().input.path),
-          _coarser(std::move(coarser)),
           _blocks(std::move(blocks)),
           _voids{grid(), [this](int column, int row) { return post(column, row); }} {}
     DemSource(const DemSource&) = delete;
@@ -142,33 +136,40 @@ public:
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _layer->grid(); }
     [[nodiscard]] const VerticalShift& shift() const noexcept { return _shift; }
 
-    /// Above the ellipsoid at a position, bilinear between posts; those in wide voids are the coarser layers'.
-    /// Returns: nullopt where no post around has data.
+    /// Above the ellipsoid at a position, bilinear between posts; in place of those in wide voids stands the mean of
+    /// the others. Returns: nullopt where no post around has data.
     [[nodiscard]] std::optional<FoundHeight> height(const PositionDeg& position) {
         const auto cell = grid().locate(position);
         if (!cell) return std::nullopt;
         const double u = cell->eastWeight;
         const double v = cell->secondWeight;
+        struct Corner {
+            int column, row;
+            double weight, height = 0.0;
+        };
+        std::array<Corner, 4> corners{{{cell->west, cell->first, (1.0 - u) * (1.0 - v)},
+                                       {cell->east, cell->first, u * (1.0 - v)},
+                                       {cell->west, cell->second, (1.0 - u) * v},
+                                       {cell->east, cell->second, u * v}}};
         FoundHeight result;
-        bool hasAny = false;
-        const auto own = [&](int column, int row, double weight) {
-            if (weight == 0.0) return 0.0;  // it is not asked for: it may be missing
-            const double height = post(column, row);
-            const double found = std::isnan(height) ? filled(column, row) : height;
-            hasAny = hasAny || !std::isnan(found);
-            result.isFilled = result.isFilled || (std::isnan(height) && !std::isnan(found));
-            return found;
-        };
-        const std::array<double, 4> heights{
-            own(cell->west, cell->first, (1.0 - u) * (1.0 - v)), own(cell->east, cell->first, u * (1.0 - v)),
-            own(cell->west, cell->second, (1.0 - u) * v), own(cell->east, cell->second, u * v)};
-        if (!hasAny) return std::nullopt;
-        const auto at = [&](std::size_t i, int column, int row) {
-            return std::isnan(heights[i]) ? coarser(column, row) : heights[i];
-        };
-        result.metres = glm::mix(glm::mix(at(0, cell->west, cell->first), at(1, cell->east, cell->first), u),
-                                 glm::mix(at(2, cell->west, cell->second), at(3, cell->east, cell->second), u), v);
-        if (std::isnan(result.metres)) return std::nullopt;
+        double sum = 0.0;
+        double weights = 0.0;
+        for (Corner& corner : corners) {
+            if (corner.weight == 0.0) continue;  // it is not asked for: it may be missing
+            corner.height = post(corner.column, corner.row);
+            if (std::isnan(corner.height)) {
+                corner.height = filled(corner.column, corner.row);
+                result.isFilled = result.isFilled || !std::isnan(corner.height);
+            }
+            if (std::isnan(corner.height)) continue;
+            sum += corner.weight * corner.height;
+            weights += corner.weight;
+        }
+        if (weights == 0.0) return std::nullopt;
+        for (Corner& corner : corners)
+            if (std::isnan(corner.height)) corner.height = sum / weights;
+        result.metres = glm::mix(glm::mix(corners[0].height, corners[1].height, u),
+                                 glm::mix(corners[2].height, corners[3].height, u), v);
         result.metres += _shift.at(position);
         return result;
     }
@@ -183,7 +184,7 @@ public:
         return isFound;
     }
 
-    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, voids with what is there.
+    /// Adds the heights of all posts that have part in the rectangle, above the ellipsoid, narrow voids filled.
     /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, Interval& range) {
         bool isComplete = grid().covers(rect);
@@ -191,7 +192,7 @@ public:
         forPosts(grid().touching(rect), [&](int column, int row, double height) {
             if (std::isnan(height)) height = filled(column, row);
             isComplete = isComplete && !std::isnan(height);
-            own.expandBy(std::isnan(height) ? coarser(column, row) : height);
+            if (!std::isnan(height)) own.expandBy(height);
             return true;
         });
         const Interval shift = _shift.range(rect, grid());
@@ -233,11 +234,6 @@ private:
         if (block->fill.empty()) block->fill = _voids.filled(block->window);
         return static_cast<double>(block->fill[block->place(column, row)]);
     }
-    /// What the coarser layers have at a post, as heights of this one.
-    [[nodiscard]] double coarser(int column, int row) const {
-        const PositionDeg position = grid().position(column, row);
-        return _coarser(position) - _shift.at(position);
-    }
     /// Calls `visit(column, row, height)` for each post, block by block, as long as it returns true.
     template <typename Visit>
     void forPosts(const std::vector<PixelWindow>& windows, const Visit& visit) {
@@ -257,7 +253,6 @@ private:
 
     std::unique_ptr<RasterLayer> _layer;
     VerticalShift _shift;
-    Coarser _coarser;
     std::shared_ptr<Blocks> _blocks;
     std::shared_ptr<Block> _last;
     VoidFill _voids;
@@ -285,13 +280,8 @@ std::string markText(const RasterLook& look, double posts) {
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
     const auto blocks = std::make_shared<DemSource::Blocks>();
     blocks->most = blocksPerThread(settings);
-    for (auto& layer : RasterLayer::elevationOf(settings, layout)) {
-        const auto coarser = [this, next = _sources.size() + 1](const PositionDeg& position) {
-            const auto found = heightFrom(next, position);
-            return found ? found->metres : std::nan("");
-        };
-        _sources.push_back(std::make_unique<DemSource>(std::move(layer), settings.geoid, coarser, blocks));
-    }
+    for (auto& layer : RasterLayer::elevationOf(settings, layout))
+        _sources.push_back(std::make_unique<DemSource>(std::move(layer), settings.geoid, blocks));
 }
 
 DemMosaic::~DemMosaic() = default;

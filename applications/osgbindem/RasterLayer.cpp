@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <ostream>
 #include <utility>
@@ -69,21 +70,8 @@ double cosine(double latitudeDeg) {
     return std::cos(latitudeDeg * kRadiansPerDegree);
 }
 
-/// The distance between two intervals, 0 when they meet.
-double gap(double aLow, double aHigh, double bLow, double bHigh) {
-    return std::max({0.0, bLow - aHigh, aLow - bHigh});
-}
-
-using Intervals = std::vector<std::pair<double, double>>;
-
-/// The parts of intervals that are outside of another one.
-Intervals without(const Intervals& intervals, const std::pair<double, double>& other) {
-    Intervals left;
-    for (const auto& [from, to] : intervals) {
-        if (other.first > from) left.emplace_back(from, std::min(other.first, to));
-        if (other.second < to) left.emplace_back(std::max(other.second, from), to);
-    }
-    return left;
+bool isCoarser(const RasterGrid& grid, const RasterGrid& than) {
+    return grid.resolutionDeg() > kEquallyFine * than.resolutionDeg();
 }
 
 /// Metres; 0 when no coarser raster lies below.
@@ -92,8 +80,7 @@ double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, 
     const RectDeg extent = grid.extent();
     double spacing = std::numeric_limits<double>::infinity();
     for (const RasterGrid& other : all) {
-        if (other.resolutionDeg() > kEquallyFine * grid.resolutionDeg() && other.overlap(extent) > 0.0)
-            spacing = std::min(spacing, other.resolutionDeg());
+        if (isCoarser(other, grid) && other.overlap(extent) > 0.0) spacing = std::min(spacing, other.resolutionDeg());
     }
     if (!std::isfinite(spacing)) return 0.0;
     const double middle = 0.5 * (extent.south + extent.north);
@@ -105,72 +92,56 @@ double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, 
 
 BlendBand::BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all, const std::optional<double>& width,
                      double radius)
-    : _metresPerDegree(radius * kRadiansPerDegree) {
+    : _metresPerDegree(radius * kRadiansPerDegree), _grid(grid) {
     _width = width ? *width : defaultWidth(grid, all, _metresPerDegree);
     if (!(_width > 0.0)) return;
-    addEdges(grid, all, true);
-    if (!grid.isGlobal()) addEdges(grid, all, false);
+    const RectDeg extent = grid.extent();
+    RectDeg around = extent.grownBy(2.0 * grid.coarsestDeg());
+    if (grid.isGlobal()) around = {extent.west, around.south, extent.east, around.north};
+    std::copy_if(all.begin(), all.end(), std::back_inserter(_others),
+                 [&](const RasterGrid& other) { return other.overlap(around) > other.overlap(extent); });
 }
 
-void BlendBand::addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& all, bool areParallels) {
-    constexpr double kLeast = 1e-4;  // what is left of an edge by rounding is no border
-    const auto along = [&](const RectDeg& r) {
-        return areParallels ? std::pair(r.west, r.east) : std::pair(r.south, r.north);
-    };
-    const auto across = [&](const RectDeg& r) {
-        return areParallels ? std::pair(r.south, r.north) : std::pair(r.west, r.east);
-    };
-    const double pixel = grid.resolutionDeg();
-    const auto [first, last] = across(grid.extent());
-    for (const auto& [border, outward] : {std::pair(first, -1.0), {last, 1.0}}) {
-        if (areParallels && border * outward >= 90.0 - pixel) continue;
-        Intervals open{along(grid.extent())};
-        // Where another raster continues beyond the border, it is not open.
-        for (const RasterGrid& other : all) {
-            const bool isCoarser = other.resolutionDeg() > kEquallyFine * pixel;
-            const double overlap = 2.0 * std::max(pixel, other.resolutionDeg());
-            for (const double turn : {-360.0, 0.0, 360.0}) {
-                // One round the globe has no end in the west and east.
-                const double more = other.isGlobal() ? 720.0 : 0.0;
-                RectDeg rect = other.extent();
-                rect.west += turn - more;
-                rect.east += turn + more;
-                const auto [low, high] = across(rect);
-                const double beyond = outward < 0.0 ? border - low : high - border;
-                const double near = outward < 0.0 ? high - border : border - low;
-                if (beyond > 0.5 * pixel && near > -pixel && (!isCoarser || near < overlap))
-                    open = without(open, along(rect));
-            }
-        }
-        for (const auto& [from, to] : open) {
-            if (to - from < kLeast) continue;
-            _edges.push_back(areParallels ? RectDeg{from, border, to, border} : RectDeg{border, from, border, to});
-        }
-    }
-}
-
-double BlendBand::metresTo(const RectDeg& rect) const noexcept {
-    const double eastward = std::min(cosine(rect.south), cosine(rect.north));
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const RectDeg& edge : _edges) {
-        const RectDeg turned = edge.turnedTo(rect);
-        const double y = gap(rect.south, rect.north, turned.south, turned.north);
-        const double x = eastward * gap(rect.west, rect.east, turned.west, turned.east);
-        nearest = std::min(nearest, x * x + y * y);
-    }
-    return _metresPerDegree * std::sqrt(nearest);
+bool BlendBand::continues(const PositionDeg& beyond, const PositionDeg& position) const noexcept {
+    return std::any_of(_others.begin(), _others.end(), [&](const RasterGrid& other) {
+        return other.locate(beyond) && (!isCoarser(other, _grid) || !other.locate(position));
+    });
 }
 
 double BlendBand::share(const PositionDeg& position) const noexcept {
-    if (_edges.empty()) return 1.0;
+    if (!(_width > 0.0)) return 1.0;
+    const double pixel = _grid.resolutionDeg();
+    const RectDeg extent = _grid.extent().turnedTo({position.longitudeDeg, 0.0, position.longitudeDeg, 0.0});
     const auto [latitude, longitude] = position;
-    return glm::smoothstep(0.0, 1.0, metresTo({longitude, latitude, longitude, latitude}) / _width);
+    double nearest = _width;
+    const auto look = [&](double degrees, const PositionDeg& beyond) {
+        const double metres = std::max(0.0, degrees) * _metresPerDegree;
+        if (metres < nearest && std::abs(beyond.latitudeDeg) < 90.0 && !continues(beyond, position)) nearest = metres;
+    };
+    look(latitude - extent.south, {extent.south - pixel, longitude});
+    look(extent.north - latitude, {extent.north + pixel, longitude});
+    if (!_grid.isGlobal()) {
+        look((longitude - extent.west) * cosine(latitude), {latitude, extent.west - pixel});
+        look((extent.east - longitude) * cosine(latitude), {latitude, extent.east + pixel});
+    }
+    return glm::smoothstep(0.0, 1.0, nearest / _width);
+}
+
+bool BlendBand::touches(const RectDeg& rect) const noexcept {
+    if (!(_width > 0.0)) return false;
+    const double degrees = _width / _metresPerDegree;
+    const RectDeg extent = _grid.extent().turnedTo(rect);
+    const double eastward = degrees / std::max(1e-9, std::min(cosine(rect.south), cosine(rect.north)));
+    const bool isInside = rect.south >= extent.south + degrees && rect.north <= extent.north - degrees &&
+                          rect.west >= extent.west + eastward && rect.east <= extent.east - eastward;
+    return !isInside;
 }
 
 void BlendBand::describe(std::ostream& out) const {
     out << _width;
-    for (const RectDeg& edge : _edges) {
-        out << ", " << edge.west << ' ' << edge.south << ' ' << edge.east << ' ' << edge.north;
+    for (const RasterGrid& other : _others) {
+        const RectDeg extent = other.extent();
+        out << ", " << extent.west << ' ' << extent.south << ' ' << extent.east << ' ' << extent.north;
     }
 }
 

@@ -17,7 +17,8 @@ namespace osgbindem {
 
 /// The band inside a raster's border over which it gives way to coarser rasters below it.
 ///
-/// No band is where another raster goes on: one that is as fine or finer, or one that only meets this one.
+/// No band is where another raster goes on beyond the border: one that is as fine or finer, or one that only meets this
+/// one.
 class BlendBand final {
 public:
     /// A raster without a band.
@@ -32,21 +33,19 @@ public:
     [[nodiscard]] double share(const PositionDeg& position) const noexcept;
 
     /// Whether the band may reach into the rectangle.
-    [[nodiscard]] bool touches(const RectDeg& rect) const noexcept { return metresTo(rect) <= _width; }
+    [[nodiscard]] bool touches(const RectDeg& rect) const noexcept;
 
     /// Writes all that shares depend on.
     void describe(std::ostream& out) const;
 
 private:
-    /// To the nearest open part of the border; infinite without one.
-    [[nodiscard]] double metresTo(const RectDeg& rect) const noexcept;
-    /// Adds the open parts of the southern and the northern border, or of the western and the eastern one.
-    void addEdges(const RasterGrid& grid, const std::vector<RasterGrid>& all, bool areParallels);
+    [[nodiscard]] bool continues(const PositionDeg& beyond, const PositionDeg& position) const noexcept;
 
     double _width = 0.0;
     double _metresPerDegree = 0.0;
-    /// Parts of the border, as rectangles of no width or no height. Longitudes are those of the raster.
-    std::vector<RectDeg> _edges;
+    RasterGrid _grid;
+    /// Those that have a part beyond its border.
+    std::vector<RasterGrid> _others;
 };
 
 /// An elevation raster in degrees of the globe. GDAL warps what is in another system, at its own spacing or to the
