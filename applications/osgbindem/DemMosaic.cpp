@@ -63,33 +63,13 @@ public:
     [[nodiscard]] double at(const PositionDeg& position) const {
         if (!_transformation) return 0.0;
         double x = std::remainder(position.longitudeDeg, 360.0);
-        double y = position.latitudeDeg;
+        double y = std::clamp(position.latitudeDeg, -90.0, 90.0);
         double z = 0.0;
         if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
             throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
                           ", longitude " + std::to_string(position.longitudeDeg) + kAdvice);
         }
         return z;
-    }
-
-    /// Holds those of all positions of the raster within the rectangle.
-    [[nodiscard]] Interval range(const RectDeg& rect, const RasterGrid& grid) const {
-        if (isNone()) return {0.0, 0.0};
-        // Between these places the geoid differs by no more than its steepest slope allows.
-        constexpr int kPlaces = 16;         // along a side
-        constexpr double kSteepest = 25.0;  // metres a degree
-        const double height = (rect.north - rect.south) / kPlaces;
-        const double width = (rect.east - rect.west) / kPlaces;
-        const double margin = kSteepest * std::max(height, width);
-        Interval range = Interval::none();
-        for (int i = 0; i < (kPlaces + 1) * (kPlaces + 1); ++i) {
-            const PositionDeg position{rect.south + height * (i / (kPlaces + 1)),
-                                       rect.west + width * (i % (kPlaces + 1))};
-            if (!grid.locate(position)) continue;
-            const double metres = at(position);
-            range = range.united({metres - margin, metres + margin});
-        }
-        return range;
     }
 
 private:
@@ -188,16 +168,12 @@ public:
     /// Returns: whether the layer has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, Interval& range) {
         bool isComplete = grid().covers(rect);
-        Interval own = Interval::none();
         forPosts(grid().touching(rect), [&](int column, int row, double height) {
             if (std::isnan(height)) height = filled(column, row);
             isComplete = isComplete && !std::isnan(height);
-            if (!std::isnan(height)) own.expandBy(height);
+            if (!std::isnan(height)) range.expandBy(height + _shift.at(grid().position(column, row)));
             return true;
         });
-        const Interval shift = _shift.range(rect, grid());
-        if (own.width() >= 0.0 && shift.width() >= 0.0)
-            range = range.united({own.lower + shift.lower, own.upper + shift.upper});
         return isComplete;
     }
 
@@ -269,12 +245,6 @@ std::size_t blocksPerThread(const Settings& settings) {
     return static_cast<std::size_t>(std::clamp(blocks, kFewest, kMost));
 }
 
-std::string markText(const RasterLook& look, double posts) {
-    return CPLSPrintf(
-        ": %s%.0f posts with numbers like %g, which no terrain has (where they are heights, see --height-unit)",
-        look.posts < posts ? "some " : "", look.marks * posts / look.posts, look.lastMark);
-}
-
 }  // namespace
 
 DemMosaic::DemMosaic(const Settings& settings, const TileLayout* layout) {
@@ -327,16 +297,10 @@ std::vector<std::string> DemMosaic::inspect() {
     std::map<std::string, std::vector<std::string>> notes;  // each with the paths of what it is true of
     for (const auto& source : _sources) {
         const RasterFile& file = source->layer().file();
-        const RasterLook look = file.look();
-        const std::string marks = look.marks > 0.0 ? markText(look, file.posts()) : std::string();
-        if (look.missing == look.posts) {
-            throw Failure("no heights in \"" + file.input.path + "\", only missing data" + marks +
-                          "; leave it out, or see --nodata, --height-unit and --radii");
-        }
+        file.requireHeights();
         for (const std::string& note : file.notes) notes[note].push_back(file.input.path);
         const VerticalShift& shift = source->shift();
         if (!shift.isNone()) notes["heights above " + shift.what() + ", converted by PROJ"].push_back(file.input.path);
-        if (!marks.empty()) notes["missing data" + marks].push_back(file.input.path);
     }
     std::vector<std::string> lines;
     for (const auto& [note, paths] : notes) {

@@ -24,10 +24,11 @@ double spacingOf(const RasterFile& image) {
 /// Draws an image over what `target` has already. Throws Failure.
 void drape(RasterFile& image, GDALDataset& target) {
     CPLStringList words(CSLTokenizeString("-r bilinear -srcalpha -dstalpha -wo SAMPLE_GRID=YES"));
-    for (const auto& [word, reference] :
-         {std::pair("-s_srs", image.isPlain ? &image.target : &image.horizontal), {"-t_srs", &image.target}}) {
-        words.AddString(word);
-        words.AddString(wktOf(*reference).c_str());
+    if (!image.isPlain) {
+        for (const auto& [word, reference] : {std::pair("-s_srs", &image.horizontal), {"-t_srs", &image.target}}) {
+            words.AddString(word);
+            words.AddString(wktOf(*reference).c_str());
+        }
     }
     GDALWarpAppOptions* options = GDALWarpAppOptionsNew(words.List(), nullptr);
     GDALDatasetH source = GDALDataset::ToHandle(image.dataset.get());

@@ -45,7 +45,6 @@ public:
         if (hasNodata != nullptr) *hasNodata = TRUE;
         return kMissing;
     }
-    [[nodiscard]] RasterLook& look() noexcept { return _look; }
 
 protected:
     CPLErr IReadBlock(int column, int row, void* data) override {
@@ -87,27 +86,19 @@ protected:
 private:
     static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-    double decoded(double number) {
+    [[nodiscard]] double decoded(double number) const {
         const auto same = static_cast<float>(_code.nodata.value_or(0.0));
         const bool isMissing =
             std::isnan(number) ||
             (_code.nodata && (number == *_code.nodata || (_isSingle && static_cast<float>(number) == same)));
         const double metres = number * _code.scale + _code.offset;
         const bool isHeight = std::abs(metres) <= _code.highest && number != kLowestNumber;
-        ++_look.posts;
-        if (!isMissing && isHeight) return metres;
-        ++_look.missing;
-        if (!isMissing) {
-            ++_look.marks;
-            _look.lastMark = number;
-        }
-        return kMissing;
+        return !isMissing && isHeight ? metres : kMissing;
     }
 
     GDALRasterBand& _numbers;
     HeightCode _code;
     bool _isSingle;
-    RasterLook _look;
 };
 
 class HeightDataset final : public GDALDataset {
@@ -244,10 +235,6 @@ GdalDataset heightsOf(GDALDataset& file, const Settings& settings, const DemInpu
     const double most = settings.isWgs84 ? kHighestOnEarth : kHighest;
     code.highest = most * std::max(1.0, std::abs(input.metresPerUnit.value_or(1.0)));
     return GdalDataset(new HeightDataset(band, code, horizontal));
-}
-
-RasterLook& lookOf(GDALDataset& heights) {
-    return static_cast<HeightBand*>(heights.GetRasterBand(1))->look();
 }
 
 GdalDataset coloursOf(GDALDataset& file, const std::string& path) {

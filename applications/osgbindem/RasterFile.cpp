@@ -319,28 +319,21 @@ int RasterFile::overview(double spacingDeg) const {
     return level;
 }
 
-RasterLook RasterFile::look() const {
-    // GDAL reads these posts from an overview where there is one, so that a server sends little.
-    constexpr int kMost = 2048, kMostOfOverview = 256;  // posts along a side
+void RasterFile::requireHeights() const {
     GDALRasterBand& band = *dataset->GetRasterBand(1);
-    const int most = file->GetRasterBand(1)->GetOverviewCount() > 0 ? kMostOfOverview : kMost;
-    const int width = std::min(most, band.GetXSize());
-    const int rows = std::min(most, band.GetYSize());
-    std::vector<double> heights(static_cast<std::size_t>(std::max(width, band.GetXSize())) *
-                                static_cast<std::size_t>(rows));
-    const auto read = [&](int row, int rowsRead, int columns, int rowsWanted) {
-        throwIfStopRequested();
-        const CPLErr error = band.RasterIO(GF_Read, 0, row, band.GetXSize(), rowsRead, heights.data(), columns,
-                                           rowsWanted, GDT_Float64, 0, 0, nullptr);
-        if (error != CE_None) throw Failure("cannot read \"" + input.path + "\": " + gdalMessage());
-    };
-    RasterLook& look = lookOf(*dataset);
-    look = {};
-    read(0, band.GetYSize(), width, rows);
-    const bool isAll = look.posts == posts();
-    for (int row = 0; !isAll && look.missing == look.posts && row < band.GetYSize(); ++row)
-        read(row, 1, band.GetXSize(), 1);
-    return look;
+    // GDAL reads these posts from an overview where there is one, so that a server sends little.
+    constexpr int kMost = 256;  // along a side
+    const int width = std::min(kMost, band.GetXSize());
+    const int rows = std::min(kMost, band.GetYSize());
+    std::vector<double> heights(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows));
+    const CPLErr error = band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), heights.data(), width, rows,
+                                       GDT_Float64, 0, 0, nullptr);
+    const auto isHeight = [](double height) { return !std::isnan(height); };
+    if (error == CE_None && std::any_of(heights.begin(), heights.end(), isHeight)) return;
+    std::array<double, 2> range{};
+    if (error == CE_None && band.ComputeRasterMinMax(FALSE, range.data()) == CE_None) return;
+    throw Failure("no heights in \"" + input.path + "\": " + gdalMessage() +
+                  "; leave it out, or see --nodata, --height-unit and --radii");
 }
 
 Settings withDeclaredRadii(Settings settings) {

@@ -16,23 +16,11 @@ namespace osgbindem {
 
 using GeoTransform = std::array<double, 6>;
 
-/// What was read of a raster's heights.
-struct RasterLook {
-    double posts = 0.0;
-    double missing = 0.0;
-    /// Numbers that the file does not declare to be missing, and that no terrain has; and the last of them.
-    double marks = 0.0;
-    double lastMark = 0.0;
-};
-
 /// The heights of a raster as one band of metres, with NaN for missing heights, so that whatever is made of it mixes no
 /// mark for missing data with heights. `file`: has to last as long. `horizontal`: the reference system without its
 /// vertical part. `notes`: get what the user should know. Throws Failure.
 [[nodiscard]] GdalDataset heightsOf(GDALDataset& file, const Settings& settings, const DemInput& input,
                                     const OGRSpatialReference& horizontal, std::vector<std::string>& notes);
-
-/// What has been read so far of such heights, to be reset.
-[[nodiscard]] RasterLook& lookOf(GDALDataset& heights);
 
 /// The colours of a raster as bands of bytes: red, green, blue and alpha. `file`: has to last as long. Throws Failure.
 [[nodiscard]] GdalDataset coloursOf(GDALDataset& file, const std::string& path);
@@ -45,10 +33,9 @@ struct RasterFile {
     RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg);
 
     [[nodiscard]] bool isNorthUp() const noexcept { return isUnturned && transform[5] < 0.0; }
-    [[nodiscard]] double posts() const { return static_cast<double>(file->GetRasterXSize()) * file->GetRasterYSize(); }
-    /// Looks at all of the raster, or at evenly spread posts of a large one; at all of it, too, while none has a
-    /// height. Requires: elevation. Throws Failure.
-    [[nodiscard]] RasterLook look() const;
+    /// Looks at parts of the raster, and at all of it where these have no height.
+    /// Requires: elevation. Throws Failure where there is none, or it cannot be read.
+    void requireHeights() const;
 
     DemInput input;
     /// As it is, and the metres or colours that are made of it.

@@ -111,10 +111,9 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
         "--geoid", settings.geoid,
         "vertical reference of all rasters: none (heights are used unchanged), egm96, or FILE,\na geoid grid "
         "that PROJ reads (default: the vertical reference in the raster, else none)");
-    app.add_option(
-           "--blend", settings.blend,
-           "width in metres of the band inside the border of a raster where it blends into\ncoarser "
-           "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)")
+    app.add_option("--blend", settings.blend,
+                   "width in metres of the band inside the border of a raster where it blends into\ncoarser "
+                   "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)")
         ->check(within(0.0, 1e6));
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles\n(default: as fine as the finest raster)")

@@ -70,7 +70,7 @@ protected:
     }
     test::Files files(const std::string& name) const {
         test::Files result = test::filesBelow(folder / name);
-        result.erase("earth.osgb.sources");  // which names the raster
+        result.erase("earth_tiles/state/sources.txt");  // which names the raster
         return result;
     }
     std::string remote(const Nginx& server) const { return "/vsicurl/" + server.url("dem.tif"); }
@@ -84,8 +84,8 @@ TEST_F(RemoteSource, GivesTheDatabaseOfTheFileOnDisk) {
     ASSERT_TRUE(server.start());
     ASSERT_EQ(build(raster, "disk", "--levels 1 --cells 12").code, 0);
     ASSERT_EQ(build(remote(server), "web", "--levels 1 --cells 12").code, 0);
-    EXPECT_EQ(files("web"), files("disk"));
-    EXPECT_EQ(files("web").size(), 129U);
+    EXPECT_TRUE(files("web") == files("disk"));
+    EXPECT_EQ(files("web").size(), 129U + 128U);  // and the records
 }
 
 TEST_F(RemoteSource, IsReadThroughItsOverviews) {
@@ -107,7 +107,7 @@ TEST_F(RemoteSource, SurvivesAServerInTroubleForAWhile) {
     ASSERT_EQ(build(raster, "disk", "--levels 0 --cells 12").code, 0);
     const test::Outcome outcome = build(remote(server), "web", "--levels 0 --cells 12");
     ASSERT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_EQ(files("web"), files("disk"));
+    EXPECT_TRUE(files("web") == files("disk"));
     const std::vector<Nginx::Request> requests = server.requests();
     EXPECT_GE(std::count_if(requests.begin(), requests.end(), [](const auto& r) { return r.status == 503; }), 1);
 }

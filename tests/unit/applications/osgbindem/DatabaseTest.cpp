@@ -250,9 +250,11 @@ protected:
         EXPECT_EQ(count, meshes.size());
     }
 
+    /// Of the files that are shown.
     [[nodiscard]] std::size_t bytesIn(const std::string& folder) const {
         std::size_t sum = 0;
-        for (const auto& [name, bytes] : filesBelow(file(folder))) sum += bytes.size();
+        for (const auto& [name, bytes] : filesBelow(file(folder)))
+            if (fs::path(name).extension() == ".osgb") sum += bytes.size();
         return sum;
     }
 };
