@@ -166,6 +166,7 @@ void DatabaseFolder::requireOwnFolder(const std::string& folder) const {
 
 void DatabaseFolder::lock() {
     _lock.emplace(_tiles + ".lock", "osgbindem", _rootFile);
+    remove(_old);  // a run was killed when its database was complete, or all but its last file
 }
 
 bool DatabaseFolder::isComplete() const {
@@ -187,7 +188,7 @@ void DatabaseFolder::remove(const std::string& folder) const {
 void DatabaseFolder::clear() {
     // The state goes first: without it, nobody takes what is left for anything.
     remove(_partial + "/" + kState);
-    for (const std::string& left : {_partial, _old}) remove(left);
+    remove(_partial);
 }
 
 std::string DatabaseFolder::sourcesIn(const std::string& folder) {
@@ -255,7 +256,6 @@ bool DatabaseFolder::takeOver(const TileId& tile) const {
 void DatabaseFolder::complete(const std::string& rootBytes) {
     writeFile(_rootFile + kPartial, rootBytes);
     support::flushToDisk(_partial);
-    remove(_old);
     std::error_code error;
     fs::remove(_rootFile, error);
     if (error) throw Failure("cannot replace \"" + _rootFile + "\": " + error.message());

@@ -72,7 +72,7 @@ public:
     /// Removes what is not complete, unless a later run can go on with it.
     ~DatabaseFolder();
 
-    /// Locks the database against a second program. Throws Failure.
+    /// Locks the database against a second program, and removes what a finished run has left. Throws Failure.
     void lock();
 
     /// Requires: locked. Throws Failure when there is a root file already: it belongs to a complete database.
