@@ -17,7 +17,6 @@
 #include <exception>
 #include <future>
 #include <iostream>
-#include <new>
 #include <set>
 #include <thread>
 #include <utility>
@@ -77,46 +76,37 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
 }
 
 using Work = std::function<void(TileBuilder& builder)>;
-/// Called while threads work. `isStopped`: the user wants to stop. What it throws stops the threads.
-using Glance = std::function<void(bool isStopped)>;
 
 /// Does `work` in each thread with a builder of its own.
-void inThreads(const Site& site, const Glance& glance, const Work& work) {
+void inThreads(const Site& site, const Work& work) {
     std::mutex mutex;
     std::exception_ptr error;
-    std::atomic<bool> hasFailed{false};
-    const auto guarded = [&](const auto& act) {
-        try {
-            act();
-        } catch (...) {
-            const std::lock_guard<std::mutex> guard(mutex);
-            if (!error) error = std::current_exception();
-            hasFailed.store(true);
-            stopRequested.store(true);  // the other threads need not go on
-        }
-    };
     // GDAL hands transformations on from thread to thread, and those of rotated poles keep PROJ's context of the thread
     // that made them. So all threads wait until the last one has finished, and delete these transformations.
-    std::atomic<std::size_t> finished{0};
+    const auto count = static_cast<std::size_t>(site.settings.threads.value_or(1));
+    std::size_t finished = 0;
     std::vector<std::future<void>> threads;
     std::promise<void> leave;
     const std::shared_future<void> mayLeave = leave.get_future().share();
-    for (int i = 0; i < site.settings.threads.value_or(1); ++i) {
+    while (threads.size() < count) {
         threads.push_back(std::async(std::launch::async, [&, mayLeave] {
-            guarded([&] {
+            std::exception_ptr thrown;
+            try {
                 TileBuilder builder(site.settings, site.layout, site.folder.files());
                 work(builder);
-            });
-            ++finished;
+            } catch (...) {
+                thrown = std::current_exception();
+                stopRequested.store(true);  // the other threads need not go on
+            }
+            {
+                const std::lock_guard<std::mutex> guard(mutex);
+                if (!error) error = thrown;
+                if (++finished == count) leave.set_value();
+            }
             mayLeave.wait();
             OSRCleanup();
         }));
     }
-    for (; finished < threads.size(); std::this_thread::sleep_for(std::chrono::milliseconds(2))) {
-        const bool isStopped = stopRequested;  // before the look at failures, which set it too
-        if (glance && !hasFailed) guarded([&] { glance(isStopped); });
-    }
-    leave.set_value();
     for (const auto& thread : threads) thread.wait();
     if (error) std::rethrow_exception(error);
 }
@@ -157,11 +147,11 @@ std::vector<Task> planTasks(const DemMosaic& mosaic, const TileLayout& layout) {
     return tasks;
 }
 
-/// Does tasks in threads, those left out that an earlier run has done and whose files are whole. `glance`: may be null.
+/// Does tasks in threads, those left out that an earlier run has done and whose files are whole.
 /// Throws what was thrown first.
-void doTasks(const Site& site, const std::vector<Task>& tasks, const Glance& glance) {
+void doTasks(const Site& site, const std::vector<Task>& tasks) {
     std::atomic<std::size_t> next{0};
-    inThreads(site, glance, [&](TileBuilder& builder) {
+    inThreads(site, [&](TileBuilder& builder) {
         for (std::size_t i = next++; i < tasks.size(); i = next++) doTask(tasks[i], site, builder);
     });
 }
@@ -173,7 +163,7 @@ std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& pl
     const std::vector<TileId>& tiles = site.layout.startTiles();
     std::vector<BuiltTile> starts(tiles.size());
     std::atomic<std::size_t> next{0};
-    inThreads(site, nullptr, [&](TileBuilder& builder) {
+    inThreads(site, [&](TileBuilder& builder) {
         builder.setFinishedTasks([&](const TileId& tile) {
             if (done.count(tile) == 0) return std::optional<SurveyedTile>();
             auto record = site.folder.find(tile, site.layout);
@@ -183,11 +173,6 @@ std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& pl
         for (std::size_t i = next++; i < tiles.size(); i = next++) starts[i] = builder.build(tiles[i]);
     });
     return starts;
-}
-
-/// Ends the program, MPI's part left out, as mpirun wants it after a signal.
-[[noreturn]] void leaveAfterSignal() {
-    std::_Exit(osgAnalyticBin::support::kInterrupted);
 }
 
 /// Says what an earlier run has left, and makes the state one of this database.
@@ -234,59 +219,6 @@ void tell(const Tally& tally, const Interval& range, const std::string& name, in
               << std::endl;
 }
 
-/// The three times at which all ranks wait for each other: when the first one has prepared the folder, when all parts
-/// are done, and when the first one has completed the database. Those that are left are held when the object goes.
-class Meetings final {
-public:
-    /// `interrupted`: called when a signal comes while this rank waits, and does not return.
-    Meetings(const Ranks& ranks, std::function<void()> interrupted)
-        : _ranks(ranks), _interrupted(std::move(interrupted)) {}
-    Meetings(const Meetings&) = delete;
-    Meetings& operator=(const Meetings&) = delete;
-    ~Meetings() {
-        giveUp();
-        (void)_ranks.meet(false, {});
-    }
-
-    /// What to do with a signal from now on.
-    void setInterrupted(std::function<void()> interrupted) { _interrupted = std::move(interrupted); }
-
-    /// The next one.
-    /// Throws: when a rank has failed, what it says in the first rank (Failure), Interrupted in the others.
-    void hold() {
-        ++_held;
-        if (!_ranks.meet(false, [this] {
-                if (stopRequested) _interrupted();
-            }))
-            return;
-        // It was sent before that rank came.
-        std::optional<std::string> text;
-        while (_ranks.isFirst() && !(text = _ranks.failureElsewhere()))
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        fail(text.value_or(""));
-    }
-    /// This rank has failed: returns when no other one writes any more.
-    void giveUp() {
-        constexpr int kUntilPartsAreDone = 2;
-        for (; _held < kUntilPartsAreDone; ++_held) (void)_ranks.meet(true, {});
-    }
-    /// Throws as hold().
-    void glance(bool isStopped) const {
-        if (isStopped) _interrupted();
-        if (const auto text = _ranks.failureElsewhere()) fail(*text);
-    }
-
-private:
-    [[noreturn]] void fail(const std::string& text) const {
-        if (_ranks.isFirst()) throw Failure(text);
-        throw Interrupted();
-    }
-
-    const Ranks& _ranks;
-    std::function<void()> _interrupted;
-    int _held = 0;
-};
-
 /// Ranks take turns, so that each has as much to do as the others.
 std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
     std::vector<Task> parts;
@@ -294,24 +226,6 @@ std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
          i += static_cast<std::size_t>(ranks.count()))
         parts.push_back(plan[i]);
     return parts;
-}
-
-/// Does this rank's parts, and waits until all ranks have done theirs.
-void doParts(const Site& site, const std::vector<Task>& plan, const Ranks& ranks, Meetings& meetings) {
-    try {
-        Glance glance;
-        if (ranks.count() > 1) glance = [&](bool isStopped) { meetings.glance(isStopped); };
-        doTasks(site, partsOf(ranks, plan), glance);
-        if (!ranks.isFirst())
-            osgAnalyticBin::support::flushToDisk(site.folder.partial());  // what this machine holds back
-        meetings.hold();
-    } catch (...) {
-        if (ranks.isFirst()) {
-            ranks.sendFailure({});
-            meetings.giveUp();
-        }
-        throw;
-    }
 }
 
 /// What has changed since the finished database was built. Throws Failure when it cannot be brought up to date.
@@ -331,7 +245,6 @@ ChangedArea changesSince(const DatabaseFolder& folder, const std::string& source
 
 void buildWith(const Settings& given, const Ranks& ranks) {
     const auto start = std::chrono::steady_clock::now();
-    Meetings meetings(ranks, throwIfStopRequested);
     prepareNodeFiles();
     const Settings settings = withDeclaredRadii(given);
     const TileLayout layout = checkedLayoutFor(settings);
@@ -344,6 +257,7 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     const ChangedArea area = isUpdate ? changesSince(folder, sources, settings.output) : ChangedArea();
     if (isUpdate && area.empty()) {
         if (!settings.quiet) std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
+        ranks.meet(false, throwIfStopRequested);
         return;
     }
     beginOrGoOn(settings, sources, plan.size(), folder);
@@ -352,16 +266,12 @@ void buildWith(const Settings& given, const Ranks& ranks) {
         if (!settings.quiet)
             std::cout << "updates: " << unchanged << " of " << plan.size() << " parts stay" << std::endl;
     }
-    meetings.hold();
-    // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
-    meetings.setInterrupted([&] {
-        std::cerr << "osgbindem: interrupted" + whatIsKept(folder, plan.size()) + "\n" << std::flush;
-        leaveAfterSignal();
-    });
+    ranks.meet(true, throwIfStopRequested);  // the folder is ready
     try {
         Progress progress(!settings.quiet, partsOf(ranks, plan));
         const Site site{settings, layout, folder, progress};
-        doParts(site, plan, ranks, meetings);
+        doTasks(site, partsOf(ranks, plan));
+        ranks.meet(true, throwIfStopRequested);  // all parts are done
         const std::vector<BuiltTile> starts = buildStarts(site, plan);
         const std::string root = rootFileBytes(starts, settings, layout);
         folder.complete(root);
@@ -386,23 +296,25 @@ void buildWith(const Settings& given, const Ranks& ranks) {
 
 /// Every rank but the first.
 void helpFirstRank(const Settings& given, const Ranks& ranks) {
-    Meetings meetings(ranks, leaveAfterSignal);
+    Settings settings = given;
+    std::optional<TileLayout> layout;
+    std::vector<Task> plan;
+    std::exception_ptr error;
     try {
         prepareNodeFiles();
-        const Settings settings = withDeclaredRadii(given);
-        const TileLayout layout = layoutFor(settings, DemMosaic(settings));
-        const std::vector<Task> plan = planTasks(DemMosaic(settings, &layout), layout);
-        meetings.hold();
-        const DatabaseFolder folder(settings.output);
-        Progress progress(false, plan);
-        doParts({settings, layout, folder, progress}, plan, ranks, meetings);
-    } catch (const Interrupted&) {
-        // the first rank knows why
-    } catch (const std::bad_alloc&) {
-        ranks.sendFailure("out of memory; use fewer ranks or --threads on a machine");
-    } catch (const std::exception& error) {
-        ranks.sendFailure(error.what());
+        settings = withDeclaredRadii(given);
+        layout = layoutFor(settings, DemMosaic(settings));
+        plan = planTasks(DemMosaic(settings, &*layout), *layout);
+    } catch (...) {
+        error = std::current_exception();  // as a rule the first rank has found the same, and ends all
     }
+    if (!ranks.meet(true, throwIfStopRequested)) return;
+    if (error) std::rethrow_exception(error);
+    const DatabaseFolder folder(settings.output);
+    Progress progress(false, plan);
+    doTasks({settings, *layout, folder, progress}, partsOf(ranks, plan));
+    osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back
+    ranks.meet(true, throwIfStopRequested);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace osgbindem {
 /// Builds the whole database, or what an earlier run of the same settings and rasters has left of it to do.
 /// Throws Failure, Interrupted; then what is done is kept beside the output for the next run, finished subtrees only.
 /// An update takes over those parts of the finished database that come out as they are.
-/// The other ranks only help; what went wrong there is thrown by the first one.
+/// The other ranks only help.
 void buildDatabase(const Settings& settings, const Ranks& ranks);
 
 /// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their

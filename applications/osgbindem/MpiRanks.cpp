@@ -5,9 +5,7 @@
 
 #include "Ranks.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <mpi.h>
 #include <thread>
 
@@ -26,54 +24,25 @@ public:
         MPI_Comm_free(&here);
     }
 
-    ~MpiRanks() override {
-        while (failureElsewhere()) {
-        }
-        MPI_Finalize();
-    }
+    ~MpiRanks() override { MPI_Finalize(); }
 
     [[nodiscard]] int rank() const override { return _rank; }
     [[nodiscard]] int count() const override { return _count; }
     [[nodiscard]] int countHere() const override { return _countHere; }
 
-    void sendFailure(const std::string& text) const override {
-        constexpr std::size_t kMost = 1000;  // short messages never wait for who receives them
-        const int size = static_cast<int>(std::min(text.size(), kMost));
-        for (int rank = 0; rank < _count; ++rank) {
-            if (rank != _rank) MPI_Send(text.data(), size, MPI_CHAR, rank, 0, MPI_COMM_WORLD);
-        }
-    }
-
-    [[nodiscard]] std::optional<std::string> failureElsewhere() const override {
-        int isThere = 0;
-        MPI_Status status;
-        if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &isThere, &status) != MPI_SUCCESS || isThere == 0) {
-            return std::nullopt;
-        }
-        int size = 0;
-        MPI_Get_count(&status, MPI_CHAR, &size);
-        std::string text(static_cast<std::size_t>(size), '\0');
-        MPI_Recv(text.data(), size, MPI_CHAR, status.MPI_SOURCE, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-        return text;
-    }
-
-    [[nodiscard]] bool meet(bool hasFailed, const std::function<void()>& glance) const override {
-        constexpr std::chrono::seconds kPatience{60};
+    bool meet(bool goesOn, const std::function<void()>& glance) const override {
         constexpr std::chrono::milliseconds kBetweenGlances{2};
-        const int mine = hasFailed ? 1 : 0;
-        int any = 0;
         MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Iallreduce(&mine, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
-        const auto begin = std::chrono::steady_clock::now();
+        const int mine = goesOn ? 1 : 0;
+        int all = 0;
+        MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
         for (int isThere = 0; MPI_Test(&request, &isThere, MPI_STATUS_IGNORE) == MPI_SUCCESS && isThere == 0;
-             std::this_thread::sleep_for(kBetweenGlances)) {
-            if (hasFailed && std::chrono::steady_clock::now() - begin > kPatience) {
-                MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
-            }
-            if (glance) glance();
-        }
-        return any != 0;
+             std::this_thread::sleep_for(kBetweenGlances))
+            glance();
+        return all != 0;
     }
+
+    void abort(int code) const override { MPI_Abort(MPI_COMM_WORLD, code); }
 
 private:
     int _rank = 0;

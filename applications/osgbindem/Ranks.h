@@ -5,8 +5,6 @@
 
 #include <cstdlib>
 #include <functional>
-#include <optional>
-#include <string>
 
 namespace osgbindem {
 
@@ -25,13 +23,11 @@ public:
     /// Of those on this machine.
     [[nodiscard]] virtual int countHere() const { return 1; }
 
-    /// Tells all others why this one cannot go on: a short text.
-    virtual void sendFailure(const std::string&) const {}
-    /// Returns at once: what another one said by sendFailure(); nullopt when none has.
-    [[nodiscard]] virtual std::optional<std::string> failureElsewhere() const { return std::nullopt; }
-    /// Waits until every rank has come to this call, without using the processor; `glance` is called meanwhile. Kills
-    /// all when the others of a rank that has failed do not come within a minute. Returns: whether any has failed.
-    [[nodiscard]] virtual bool meet(bool hasFailed, const std::function<void()>& /*glance*/) const { return hasFailed; }
+    /// Waits until every rank has come to this call, without using the processor; `glance` is called meanwhile.
+    /// Returns: whether all go on.
+    virtual bool meet(bool goesOn, const std::function<void()>& /*glance*/) const { return goesOn; }
+    /// Ends all ranks at once: this one has failed.
+    virtual void abort(int /*code*/) const {}
 };
 
 /// The function of the module osgbindem_mpi, and its name. The program starts where MPI is not installed. Returns: null

@@ -75,14 +75,22 @@ void prepareProcess(const Settings& settings) {
     osgAnalyticBin::support::stopOnSignals();
 }
 
-ExitCode run(int argc, char** argv) {
+/// `ranks`: gets those that mpirun has started.
+ExitCode run(int argc, char** argv, std::unique_ptr<Ranks>& ranks) {
     std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return kSucceeded;
-    const std::unique_ptr<Ranks> ranks = joinRanks();
+    ranks = joinRanks();
     setSpeaker(ranks->isFirst());  // launcher and library may not know each other
     if (!settings->threads) settings->threads = threadsPerRank(*ranks);
     prepareProcess(*settings);
-    osgbindem::buildDatabase(*settings, *ranks);
+    try {
+        osgbindem::buildDatabase(*settings, *ranks);
+    } catch (const osgAnalyticBin::support::Interrupted&) {
+        throw;
+    } catch (...) {
+        setSpeaker(true);  // nobody else knows
+        throw;
+    }
     return kSucceeded;
 }
 
@@ -92,8 +100,11 @@ int main(int argc, char** argv) {
     // Until MPI has started, the environment tells which one is the first.
     const char* rank = osgbindem::launchedRank();
     setSpeaker(rank == nullptr || std::atoi(rank) == 0);
-    const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] { return run(argc, argv); });
-    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later. The others
-    // end in peace: mpirun would end the first before it has spoken.
-    return isSpeaker || code == osgAnalyticBin::support::kInterrupted ? code : kSucceeded;
+    std::unique_ptr<Ranks> ranks;
+    const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] { return run(argc, argv, ranks); });
+    // What is finished is on the disk, whenever the others end.
+    if (code != kSucceeded && ranks) ranks->abort(code);
+    // Every rank finds the same faults in the command line, and the first one tells. The others end in peace: mpirun
+    // would end the first before it has spoken.
+    return isSpeaker ? code : kSucceeded;
 }

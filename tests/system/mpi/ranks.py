@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
-"""Runs osgbindem under mpirun: the same bytes at any number of ranks, one line for each error, and a run that lost a
-rank or was told to stop is completed by the same command, with or without mpirun. Exit code 77: skipped."""
+"""Runs osgbindem under mpirun: the same bytes at any number of ranks and after an update, one line for each error, and a
+run that lost a rank or was told to stop is completed by the same command, with or without mpirun. Exit code 77:
+skipped."""
 
 import argparse
 import contextlib
@@ -69,6 +70,13 @@ class Ranks:
         folder = self.folder("ranks")
         self.complete(folder, MPIRUN + ["-n", "2"] + self.build(folder) + ["--threads", "2", "--quiet"])
 
+    def updates(self):
+        folder = self.folder("update")
+        update = ["--update" if word == "--overwrite" else word for word in self.build(folder)]
+        succeed(self.build(folder, self.work / "globe.asc"))
+        require("parts stay" in self.complete(folder, MPIRUN + ["-n", "3"] + update), "no part was taken over")
+        require("nothing has changed" in self.complete(folder, MPIRUN + ["-n", "2"] + update), "what is the same was built")
+
     def one_line(self, done, words):
         require(done.returncode != 0, "an error ended with 0")
         require(done.stderr.count("\n") == 1 and words in done.stderr, f"not one line with \"{words}\": {done.stderr}")
@@ -81,7 +89,8 @@ class Ranks:
         # a raster that one machine alone does not have
         both = ["-n", "1"] + self.build(folder, self.work / "globe.asc") + ["--quiet", ":", "-n", "1"] + \
             self.build(folder, "absent.tif") + ["--quiet"]
-        self.one_line(run(MPIRUN + both), "absent.tif")
+        done = run(MPIRUN + both)  # the first rank may say that it was ended
+        require(done.returncode != 0 and done.stderr.count("absent.tif") == 1, f"\"absent.tif\" is not said once: {done.stderr}")
         require(not (folder / "earth.osgb").exists(), "a failed run left a root file")
 
     def running(self, folder, parts):
@@ -240,7 +249,7 @@ def main():
         return SKIPPED
     try:
         ranks = Ranks(arguments.work.resolve(), osgbindem)
-        for case in (ranks.same_bytes, ranks.errors, ranks.a_lost_rank, ranks.a_stopped_run, ranks.two_at_once):
+        for case in (ranks.same_bytes, ranks.updates, ranks.errors, ranks.a_lost_rank, ranks.a_stopped_run, ranks.two_at_once):
             begin = time.monotonic()
             case()
             print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
