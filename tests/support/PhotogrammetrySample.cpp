@@ -1,16 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osg/Image>
 #include <osg/PagedLOD>
-#include <osg/Texture2D>
 #include <osgDB/WriteFile>
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <support/GridMesh.h>
 #include <support/PhotogrammetrySample.h>
 
@@ -20,6 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kTilesPerSide = 3;
+constexpr double kTileMetres = 200.0;
+// Levels of detail of a tile. The finest are below a chain of single children, then four children each.
+constexpr int kLevels = 4;
 constexpr int kChain = 2;  // levels with a single child
 constexpr unsigned int kCells = 12;
 constexpr double kTower = 90.0;  // metres above the ground
@@ -27,6 +28,16 @@ constexpr double kTowerSide = 12.0;
 constexpr double kTowerSpacing = 160.0;
 // A node is refined when its sphere is wider than this on the screen.
 constexpr float kRefinePixels = 220.0F;
+
+// Metres above the ground of the set's frame, at a place in it: towers are steps.
+double heightAt(double x, double y, bool hasTowers) {
+    const double ground = 12.0 * std::sin(x / 90.0) * std::cos(y / 120.0) + 15.0;
+    const auto isInTower = [](double at) {
+        const double inCell = at - kTowerSpacing * std::floor(at / kTowerSpacing);
+        return inCell > 70.0 && inCell < 70.0 + kTowerSide;
+    };
+    return hasTowers && isInTower(x) && isInTower(y) ? ground + kTower : ground;
+}
 
 // A part of a tile, at one level: its file is named for the level and the number in it.
 struct Part {
@@ -41,17 +52,16 @@ public:
 
     bool write() {
         std::error_code problem;
-        for (int row = 0; row < _sample.tilesPerSide; ++row) {
-            for (int column = 0; column < _sample.tilesPerSide; ++column) {
+        for (int row = 0; row < kTilesPerSide; ++row) {
+            for (int column = 0; column < kTilesPerSide; ++column) {
                 _tile = tileName(column, row);
                 fs::create_directories(_folder / "Data" / _tile, problem);
-                const double side = _sample.tileMetres;
-                const double west = (column - 0.5 * _sample.tilesPerSide) * side;
-                const double south = (row - 0.5 * _sample.tilesPerSide) * side;
-                if (problem || !writeFile({0, 0, west, south, side})) return false;
+                const double west = (column - 0.5 * kTilesPerSide) * kTileMetres;
+                const double south = (row - 0.5 * kTilesPerSide) * kTileMetres;
+                if (problem || !writeFile({0, 0, west, south, kTileMetres})) return false;
             }
         }
-        return writeMetadata();
+        return true;
     }
 
 private:
@@ -61,21 +71,12 @@ private:
         return name;
     }
 
-    bool writeMetadata() const {
-        std::ofstream out(_folder / "metadata.xml");
-        out << "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ModelMetadata version=\"1\">\n"
-               "\t<!--Spatial Reference System-->\n\t<SRS>"
-            << _sample.srs << "</SRS>\n\t<!--Origin in Spatial Reference System-->\n\t<SRSOrigin>" << _sample.origin
-            << "</SRSOrigin>\n\t<Texture>\n\t\t<ColorSource>Visible</ColorSource>\n\t</Texture>\n</ModelMetadata>\n";
-        return static_cast<bool>(out.flush());
-    }
-
     [[nodiscard]] std::string fileName(const Part& part) const {
         if (part.level == 0) return _tile + ".osgb";
         return _tile + "_L" + std::to_string(part.level) + "_" + std::to_string(part.number) + ".osgb";
     }
 
-    [[nodiscard]] bool isLast(const Part& part) const { return part.level + 1 >= _sample.levels; }
+    [[nodiscard]] bool isLast(const Part& part) const { return part.level + 1 >= kLevels; }
 
     // The parts that are in one file with this one: itself and its siblings.
     [[nodiscard]] static std::vector<Part> partsOfFile(const Part& first) {
@@ -121,20 +122,17 @@ private:
 
     // About the vertices of all levels, which are among those of the finest. A false sphere holds those in its middle.
     [[nodiscard]] osg::BoundingSphere sphereOf(const Part& part) const {
-        const int steps = int(2 * kCells) << std::max(0, _sample.levels - 1 - std::max(part.level, kChain));
+        const int steps = int(2 * kCells) << std::max(0, kLevels - 1 - std::max(part.level, kChain));
         const int all = part.level < kChain ? 2 * steps : steps;
         osg::BoundingBox box;
         for (int row = 0; row <= all; ++row) {
             for (int column = 0; column <= all; ++column) {
                 const double x = part.west + column * part.side / all;
                 const double y = part.south + row * part.side / all;
-                for (const bool hasTowers : {false, true})
-                    box.expandBy(
-                        osg::Vec3d(x, y, photogrammetryHeight(x, y, hasTowers && _sample.towersFrom < _sample.levels)));
+                for (const bool hasTowers : {false, true}) box.expandBy(osg::Vec3d(x, y, heightAt(x, y, hasTowers)));
             }
         }
-        const fs::path file = fs::path("Data") / _tile / fileName(part);
-        const bool isFalseRoot = file == kTileWithFalseSphere;
+        const bool isFalseRoot = _tile == "Tile_+001_+001" && part.level == 0;
         const bool isFalsePart = _tile == "Tile_+000_+001" && part.level == 2 && part.number == 0;
         const float share = _sample.hasFalseSpheres && (isFalseRoot || isFalsePart) ? 0.35F : 1.0F;
         return {box.center(), share * box.radius()};
@@ -144,48 +142,17 @@ private:
     osg::ref_ptr<osg::Geode> meshOf(const Part& part) {
         const unsigned int cells = kCells << std::max(0, std::min(part.level, kChain) - 1);
         const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-        const osg::ref_ptr<osg::Vec2Array> texels = new osg::Vec2Array;
         const double step = part.side / cells;
         for (unsigned int row = 0; row <= cells; ++row) {
             for (unsigned int column = 0; column <= cells; ++column) {
                 const double x = part.west + column * step;
                 const double y = part.south + row * step;
-                vertices->push_back(osg::Vec3d(x, y, photogrammetryHeight(x, y, part.level >= _sample.towersFrom)));
-                texels->push_back(osg::Vec2d(double(column) / cells, double(row) / cells));
+                vertices->push_back(osg::Vec3d(x, y, heightAt(x, y, part.level >= _sample.towersFrom)));
             }
         }
-        const auto geometry = makeGeometry(vertices, gridTriangles<osg::DrawElementsUShort>(cells + 1));
-        geometry->setTexCoordArray(0, texels);
-        const osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array;
-        white->push_back(osg::Vec4(1, 1, 1, 1));
-        geometry->setColorArray(white, osg::Array::BIND_OVERALL);
-        geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(part));
-        geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
         const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-        geode->addDrawable(geometry);
+        geode->addDrawable(makeGeometry(vertices, gridTriangles<osg::DrawElementsUShort>(cells + 1)));
         return geode;
-    }
-
-    // Colours by height and place, so that a lost part shows.
-    [[nodiscard]] osg::ref_ptr<osg::Texture2D> textureOf(const Part& part) const {
-        const auto size = static_cast<int>(_sample.textureSize);
-        const osg::ref_ptr<osg::Image> image = new osg::Image;
-        image->allocateImage(size, size, 1, GL_RGB, GL_UNSIGNED_BYTE);
-        for (int row = 0; row < size; ++row) {
-            for (int column = 0; column < size; ++column) {
-                const double x = part.west + (column + 0.5) * part.side / size;
-                const double y = part.south + (row + 0.5) * part.side / size;
-                const double h = photogrammetryHeight(x, y);
-                unsigned char* const texel =
-                    image->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-                texel[0] = static_cast<unsigned char>(90 + std::lround(1.2 * std::clamp(h, 0.0, 120.0)));
-                texel[1] = static_cast<unsigned char>(120 + std::lround(60.0 * std::sin(x / 7.0)));
-                texel[2] = static_cast<unsigned char>(90 + std::lround(60.0 * std::cos(y / 9.0)));
-            }
-        }
-        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
-        texture->setResizeNonPowerOfTwoHint(false);
-        return texture;
     }
 
     const fs::path _folder;
@@ -195,18 +162,8 @@ private:
 
 }  // namespace
 
-double photogrammetryHeight(double x, double y, bool hasTowers) {
-    const double ground = 12.0 * std::sin(x / 90.0) * std::cos(y / 120.0) + 15.0;
-    const auto isInTower = [](double at) {
-        const double inCell = at - kTowerSpacing * std::floor(at / kTowerSpacing);
-        return inCell > 70.0 && inCell < 70.0 + kTowerSide;
-    };
-    return hasTowers && isInTower(x) && isInTower(y) ? ground + kTower : ground;
-}
-
-std::string writePhotogrammetrySample(const std::string& folder, const PhotogrammetrySample& sample) {
-    SampleWriter writer(folder, sample);
-    return writer.write() ? (fs::path(folder) / "metadata.xml").string() : std::string();
+bool writePhotogrammetrySample(const std::string& folder, const PhotogrammetrySample& sample) {
+    return SampleWriter(folder, sample).write();
 }
 
 }  // namespace osgAnalyticBin::test
