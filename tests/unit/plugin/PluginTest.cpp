@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/NodeVisitor>
 #include <osg/PagedLOD>
 #include <osgDB/Archive>
 #include <osgDB/ReadFile>
@@ -19,35 +18,28 @@
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
+#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
 
-// Counts the callbacks below a node, and notes the options of the last.
-class CallbackCounter : public osg::NodeVisitor {
-public:
-    CallbackCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        if (const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback())) {
-            ++count;
-            options = callback->getCullOptions();
-            radii = callback->getRadiiText();
-        }
-        if (!node.getCullingActive()) ++withoutSpheres;
-        // terrain tiles of osgTerrain must not be traversed before they have their Terrain
-        if (std::string(node.libraryName()) != "osgTerrain" || std::string(node.className()) != "TerrainTile")
-            traverse(node);
-    }
+// The callbacks below a node, and the options of the last.
+struct Counted {
     int count = 0;
     int withoutSpheres = 0;
     CullOptions options;
-    std::string radii;
 };
 
-CallbackCounter counted(osg::Node& node) {
-    CallbackCounter counter;
-    node.accept(counter);
-    return counter;
+Counted counted(osg::Node& scene) {
+    Counted found;
+    test::visitNodes(scene, [&found](osg::Node& node) {
+        if (const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback())) {
+            ++found.count;
+            found.options = callback->getCullOptions();
+        }
+        if (!node.getCullingActive()) ++found.withoutSpheres;
+    });
+    return found;
 }
 
 class Plugin : public ::testing::Test {
@@ -99,7 +91,7 @@ TEST_F(Plugin, TakesParametersInThePseudoLoadersManner) {
 
 TEST_F(Plugin, SphereInstallsNothingAndNoneSwitchesCullingOff) {
     for (const char* method : {"sphere", "none"}) {
-        const CallbackCounter counter = counted(*read(std::string(".(method=") + method + ").analyticbin"));
+        const Counted counter = counted(*read(std::string(".(method=") + method + ").analyticbin"));
         EXPECT_EQ(counter.count, 0);
         EXPECT_EQ(counter.withoutSpheres, 0);
     }
