@@ -5,6 +5,7 @@
 // What a camera's cull traversal came to. Oracles: the counters and the render graph of a traversal that was not
 // watched; tiles whose verdict can be told by hand.
 
+#include "DatabaseFixture.h"
 #include "ViewerFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -13,9 +14,7 @@
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>
 #include <osg/PolygonMode>
-#include <osgDB/Callbacks>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
+#include <osgDB/WriteFile>
 
 #include <algorithm>
 #include <string>
@@ -116,45 +115,23 @@ TEST(TileSurvey, KnowsWhereABinStandsInTheWorld) {
     }
 }
 
-// Reads the finer level of each PagedLOD, and those below it, as the pager does.
-struct PageReader : osg::NodeVisitor {
-    PageReader() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::PagedLOD& tile) override {
-        const auto* const options = static_cast<const osgDB::Options*>(tile.getDatabaseOptions());
-        const std::string name = tile.getNumFileNames() > 1 ? tile.getFileName(1) : std::string();
-        if (!name.empty()) tile.addChild(osgDB::readRefNodeFile(tile.getDatabasePath() + name, options));
-        traverse(tile);
-    }
-};
-
-// Leaves are read without the PagedLODs above their meshes' transforms.
-struct LeafReader : osgDB::ReadFileCallback {
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
-        osgDB::ReaderWriter::ReadResult result = osgDB::ReadFileCallback::readNode(name, options);
-        osg::Group* const group = result.validNode() ? result.getNode()->asGroup() : nullptr;
-        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-            auto* const tile = dynamic_cast<osg::PagedLOD*>(group->getChild(i));
-            if (tile && tile->getNumFileNames() < 2) group->setChild(i, tile->getChild(0));
-        }
-        return result;
-    }
-};
-
 // The kit puts a group above each of them.
 TEST(TileSurvey, KnowsTheBinsOfLeavesThatAreTransforms) {
     ViewerScene scene(with(Method::Quadratic));
-    osgDB::Registry::instance()->setReadFileCallback(new LeafReader);
-    PageReader reader;
-    scene.database().accept(reader);
-    osgDB::Registry::instance()->setReadFileCallback(nullptr);
-    scene.lookFrom(22.5, 22.5, 100e3, 0.0, 60.0);
+    const test::TemporaryFolder folder;
+    const auto leaf = test::makeMeshTile(test::extentsDeg(-90, -45, -180, -135), 0.0);
+    ASSERT_TRUE(osgDB::writeNodeFile(*test::makeGroup({leaf}), folder / "leaf.osgb"));
+    auto& tile = dynamic_cast<osg::PagedLOD&>(*scene.database().asGroup()->getChild(0));
+    tile.setDatabasePath("");
+    tile.setFileName(1, folder / "leaf.osgb");
+    test::putBelow(tile, test::readBelow(tile));
+    scene.lookFrom(-67.5, -157.5, 100e3, 0.0, 60.0);
     const TileSurvey survey(scene.camera(), scene.frameStamp());
-    ASSERT_GT(survey.tiles().size(), 32u);
-    EXPECT_TRUE(std::any_of(survey.tiles().begin(), survey.tiles().end(), [](const SurveyedTile& tile) {
-        const osg::Group* const group = tile.node->asGroup();
+    EXPECT_TRUE(std::any_of(survey.tiles().begin(), survey.tiles().end(), [](const SurveyedTile& surveyed) {
+        const osg::Group* const group = surveyed.node->asGroup();
         return group && !group->asTransform() && group->getNumChildren() == 1 && group->getChild(0)->asTransform();
     }));
-    for (const SurveyedTile& tile : survey.tiles()) EXPECT_TRUE(tile.hasBin);
+    for (const SurveyedTile& surveyed : survey.tiles()) EXPECT_TRUE(surveyed.hasBin);
 }
 
 }  // namespace
