@@ -28,24 +28,17 @@ CullView atMiddle(double altitude, double fovDeg = 40.0) {
     return CullView::lookAt({kEarthRadius + altitude, 0, 0}, {0, 0, 0}, {0, 0, 1}, fovDeg);
 }
 
-struct CountedGlobe {
-    explicit CountedGlobe(const CullOptions& options = {}) : bins(startTiles()) {
-        for (std::size_t i = 0; i < bins.size(); ++i)
-            root->addChild(makeTile(std::to_string(i), bins[i], visited, options));
-    }
+struct CountedGlobe : CameraGlobe {
+    using CameraGlobe::CameraGlobe;
 
-    std::set<std::string> reached(osg::Node& scene, const CullView& view, float pixels = 2.0f) {
-        visited.clear();
+    std::set<std::size_t> reached(osg::Node& scene, const CullView& view, float pixels = 2.0f) {
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         visitor->setSmallFeatureCullingPixelSize(pixels);
         cull(scene, view, *visitor);
         counts = BinStatistics::of(*visitor).getCounts();
-        return visited;
+        return takeLooks().at(0).reached;
     }
 
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    std::vector<AnalyticBin> bins;
-    std::set<std::string> visited;
     BinCounts counts;
 };
 
@@ -53,11 +46,11 @@ TEST(AnalyticBinCullCallback, CullsAGlobeThatATransformMovesTurnsAndScalesLikeOn
     CountedGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
-    mover->addChild(globe.root);
+    mover->addChild(&globe.root());
     Random random(31);
     for (int i = 0; i < 60; ++i) {
         CullView view = randomGlobeView(random);
-        const std::set<std::string> atRest = globe.reached(*globe.root, view);
+        const std::set<std::size_t> atRest = globe.reached(globe.root(), view);
         // A line of sight stays a line under any affine map: unequal scales do no harm.
         const osg::Vec3d scale = i % 2 ? osg::Vec3d(0.5, 0.5, 0.5) : osg::Vec3d(0.5, 2.0, 1.25);
         const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), 0.3, 0.5, -0.8) *
@@ -72,14 +65,22 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     const CullView away = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
+    const auto add = [&](const char* name, AnalyticBinCullCallback* callback) {
+        const osg::ref_ptr<osg::Group> tile = new osg::Group;
+        tile->setCullingActive(false);
+        callback->setNestedCallback(new VisitRecorder(name, visited));
+        tile->setCullCallback(callback);
+        root->addChild(tile);
+    };
+    const osg::EllipsoidModel wgs84;
     const AnalyticBin bin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 100}));
-    root->addChild(makeTile("culled", bin, visited));
-    root->addChild(makeTile("invalid bin", AnalyticBin(), visited));
-    root->addChild(makeTile("no culling", bin, visited, by(Method::None)));
-    osg::ref_ptr<osg::Group> singular = makeTile("singular frame", bin, visited);
-    dynamic_cast<AnalyticBinCullCallback&>(*singular->getCullCallback()).setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
-    root->addChild(singular);
-    root->addChild(makeTile("no radius", bin, visited, {}, osg::EllipsoidModel(std::nan(""), 6.4e6)));
+    add("culled", new AnalyticBinCullCallback(bin, wgs84));
+    add("invalid bin", new AnalyticBinCullCallback(AnalyticBin(), wgs84));
+    add("no culling", new AnalyticBinCullCallback(bin, wgs84, by(Method::None)));
+    auto* const singular = new AnalyticBinCullCallback(bin, wgs84);
+    singular->setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
+    add("singular frame", singular);
+    add("no radius", new AnalyticBinCullCallback(bin, osg::EllipsoidModel(std::nan(""), 6.4e6)));
     (void)cull(*root, away);
     EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
 }
@@ -100,28 +101,13 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     EXPECT_EQ(installed(optionsOf("horizon=-9")).horizon, -9.0);
 }
 
-TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
-    CountedGlobe with, without(optionsOf("edges=off"));
-    Random random(32);
-    unsigned int separated = 0;
-    for (int i = 0; i < 200; ++i) {
-        const CullView view = randomGlobeView(random);
-        const std::set<std::string> reached = with.reached(*with.root, view);
-        separated += with.counts.beyondEdge;
-        const std::set<std::string> more = without.reached(*without.root, view);
-        EXPECT_EQ(without.counts.beyondEdge, 0u);
-        EXPECT_EQ(reached.size() + with.counts.beyondEdge, more.size());
-    }
-    EXPECT_GT(separated, 20u);
-}
-
 // The counts say what became of a tile, not what its bin alone said: small features are outside.
 TEST(CulledCounts, AreThoseOfTheTilesThatAreReachedAlsoOfSmallFeatures) {
     CountedGlobe globe;
     CullView view = CullView::lookAt({5 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 50.0);
     view.projection = osg::Matrixd::perspective(50.0, 1.0, 1e5, 1e8);
     const auto counted = [&](float pixels) {
-        const std::size_t reached = globe.reached(*globe.root, view, pixels).size();
+        const std::size_t reached = globe.reached(globe.root(), view, pixels).size();
         EXPECT_EQ(globe.counts.tested, 128u);
         EXPECT_EQ(globe.counts.inside + globe.counts.straddling, reached);
         EXPECT_EQ(globe.counts.outside, 128u - reached);
@@ -145,7 +131,7 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
     for (unsigned int frame = 1; frame <= 3; ++frame) {
-        cull(*globe.root, atMiddle(1e6), *visitor, frame);
+        cull(globe.root(), atMiddle(1e6), *visitor, frame);
         ASSERT_NE(BinStatistics::find(*visitor), nullptr);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().frame, frame);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 128u);
@@ -155,11 +141,11 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    cull(*globe.root, atMiddle(1e6), *a);
+    cull(globe.root(), atMiddle(1e6), *a);
     const BinCounts before = BinStatistics::find(*a)->getCounts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
-    cull(*globe.root, atMiddle(1e7), *b);
+    cull(globe.root(), atMiddle(1e7), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
     // they may cull in two threads: nothing is put into what OSG has them share

@@ -37,53 +37,27 @@ osg::Matrixd randomViewMatrix(Random& random, double lowest) {
     return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
 }
 
-class LookRecorder : public osg::NodeCallback {
-public:
-    explicit LookRecorder(CameraGlobe& globe) : _globe(globe) {}
-
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
-            osg::CullStack& stack = *nv->asCullStack();
-            const std::lock_guard lock(_globe._mutex);
-            _globe._looks.push_back({innermostCamera(nv->getNodePath()),
-                                     nv,
-                                     *stack.getModelViewMatrix(),
-                                     *stack.getProjectionMatrix(),
-                                     {}});
-        }
-        traverse(node, nv);
-    }
-
-private:
-    CameraGlobe& _globe;
-};
-
-class ReachRecorder : public osg::NodeCallback {
-public:
-    ReachRecorder(CameraGlobe& globe, std::size_t tile) : _globe(globe), _tile(tile) { setTraversesAlways(*this); }
-
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
-            const std::lock_guard lock(_globe._mutex);
-            const auto look = std::find_if(_globe._looks.rbegin(), _globe._looks.rend(),
-                                           [&](const Look& candidate) { return candidate.visitor == nv; });
-            look->reached.insert(_tile);
-        }
-        traverse(node, nv);
-    }
-
-private:
-    CameraGlobe& _globe;
-    const std::size_t _tile;
-};
-
 CameraGlobe::CameraGlobe(const CullOptions& options, const std::vector<AnalyticBin>& tiles) {
-    _root->setCullCallback(new LookRecorder(*this));
+    _root->setCullCallback(new Before([this](osgUtil::CullVisitor& visitor) {
+        const std::lock_guard lock(_mutex);
+        _looks.push_back({innermostCamera(visitor.getNodePath()),
+                          &visitor,
+                          *visitor.getModelViewMatrix(),
+                          *visitor.getProjectionMatrix(),
+                          {}});
+    }));
     const osg::EllipsoidModel wgs84;
     for (const AnalyticBin& bin : tiles) {
+        const osg::ref_ptr<Before> reached = new Before([this, number = _tiles.size()](osgUtil::CullVisitor& visitor) {
+            const std::lock_guard lock(_mutex);
+            const auto look = std::find_if(_looks.rbegin(), _looks.rend(),
+                                           [&](const Look& candidate) { return candidate.visitor == &visitor; });
+            look->reached.insert(number);
+        });
+        setTraversesAlways(*reached);
         osg::ref_ptr<osg::Group> tile = new osg::Group;
         osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, wgs84, options);
-        callback->setNestedCallback(new ReachRecorder(*this, _tiles.size()));
+        callback->setNestedCallback(reached);
         tile->setCullCallback(callback.get());
         tile->setCullingActive(false);
         _root->addChild(tile);

@@ -64,9 +64,6 @@ public:
                                              std::optional<double> occluderDepth = std::nullopt) const;
 
 private:
-    friend class LookRecorder;
-    friend class ReachRecorder;
-
     osg::ref_ptr<osg::Group> _root = new osg::Group;
     std::vector<osg::ref_ptr<osg::Group>> _tiles;
     std::vector<std::vector<osg::Vec3d>> _samples;

@@ -3,8 +3,6 @@
 
 #include "CullFixture.h"
 
-#include <osgAnalyticBin/Declarations.h>
-
 #include <osg/CollectOccludersVisitor>
 #include <osg/FrameStamp>
 #include <osg/Geometry>
@@ -129,24 +127,6 @@ CullOptions by(Method method) {
     CullOptions options;
     options.method = method;
     return options;
-}
-
-void VisitRecorder::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) _visited.insert(_name);
-    traverse(node, nv);
-}
-
-osg::ref_ptr<osg::Group> makeTile(const std::string& name, const AnalyticBin& bin, std::set<std::string>& visited,
-                                  const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
-    osg::ref_ptr<osg::Group> tile = new osg::Group;
-    tile->setName(name);
-    osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, ellipsoid, options);
-    const osg::ref_ptr<osg::NodeCallback> recorder = new VisitRecorder(name, visited);
-    setTraversesAlways(*recorder);
-    callback->setNestedCallback(recorder);
-    tile->setCullCallback(callback.get());
-    tile->setCullingActive(false);
-    return tile;
 }
 
 std::vector<AnalyticBin> startTiles() {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// A real cull traversal without a window, and small scenes of tiles that record which of them it reaches.
+// A real cull traversal without a window.
 
 #pragma once
 
@@ -76,21 +76,11 @@ struct Before : osg::NodeCallback {
     const Action action;
 };
 
-/// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
-class VisitRecorder : public osg::NodeCallback {
-public:
-    VisitRecorder(std::string name, std::set<std::string>& visited) : _name(std::move(name)), _visited(visited) {}
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
-
-private:
-    std::string _name;
-    std::set<std::string>& _visited;
+/// Notes that the cull traversal reached it; put behind a bin's callback as a nested one.
+struct VisitRecorder : Before {
+    VisitRecorder(const std::string& name, std::set<std::string>& visited)
+        : Before([name, &visited](auto&) { visited.insert(name); }) {}
 };
-
-/// A named tile with a bin, its sphere culling off, that records visits.
-osg::ref_ptr<osg::Group> makeTile(const std::string& name, const AnalyticBin& bin, std::set<std::string>& visited,
-                                  const CullOptions& options = {},
-                                  const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel());
 
 /// The 128 start tiles, 22.5 degrees wide, with altitudes -500 .. 9000 m.
 std::vector<AnalyticBin> startTiles();

@@ -112,7 +112,7 @@ osg::ref_ptr<osg::Node> PlanarMap::tile(const std::string& folder, int level, in
     const auto cutOff = static_cast<float>(2.0 * square.width);
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     // the tightest sphere about all heights
-    const double middle = 1300.0 / heightUnit * verticalScale;
+    const double middle = 1300.0 / heightUnit;
     paged->setCenter(osg::Vec3d(square.x + 0.5 * square.width, square.y + 0.5 * square.width, middle));
     paged->setRadius(static_cast<float>(std::hypot(std::sqrt(0.5) * square.width, middle)));
     paged->addChild(own, cutOff, 1e10f);

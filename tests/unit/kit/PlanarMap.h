@@ -21,8 +21,6 @@ struct PlanarMap {
     double size = 64000.0;
     double heightUnit = 1.0;  // metres in a map unit
 
-    double verticalScale = 1.0;  // for which the spheres of PagedLODs are to hold
-
     /// Map units, within 0 .. 2600 metres, at a post of a tile of this width. The finest tiles alone have peaks and
     /// pits.
     [[nodiscard]] double height(double x, double y, double width) const;
