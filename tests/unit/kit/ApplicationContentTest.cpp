@@ -35,52 +35,22 @@ struct AboveTheMesh {
     osg::Vec3d place, local;
 };
 
-// Draws beside its children, if it may have any: as osgSim::LightPointNode and osgVolume::VolumeTile do.
-template <class Base>
-struct Drawing : Base {
-    explicit Drawing(const osg::Vec3d& at) : place(at) {}
+// Draws beside its children, as osgVolume::VolumeTile does. What nodes of any class draw in meshes:
+// MeshTileSurfaceTest.cpp.
+struct Balloon : osg::Group {
+    explicit Balloon(const osg::Vec3d& at) : place(at) {}
     osg::BoundingSphere computeBound() const override {
-        osg::BoundingSphere bound = Base::computeBound();
+        osg::BoundingSphere bound = osg::Group::computeBound();
         bound.expandBy(osg::BoundingSphere(place, 50.0f));
         return bound;
     }
     void traverse(osg::NodeVisitor& nv) override {
         isDrawn = isDrawn || nv.asCullVisitor();
-        Base::traverse(nv);
+        osg::Group::traverse(nv);
     }
     const osg::Vec3 place;
     bool isDrawn = false;
 };
-using Balloon = Drawing<osg::Group>;
-
-// It stands above the middle of tile 19.
-template <class Content>
-void expectDrawnWhereItIs(MeshGlobe& globe, const Content& content, double altitude) {
-    installBins(*globe.root);
-    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, altitude)));
-    EXPECT_FALSE(content.isDrawn);
-    (void)globe.draws(*globe.root, beside(ecefDeg(22.5, -22.5, altitude)));
-    EXPECT_TRUE(content.isDrawn);
-}
-
-TEST(ContentOfMeshes, IsDrawnByANodeOrAGroupOfAnyClass) {
-    const auto expectDrawn = [](auto&& make) {
-        MeshGlobe globe;
-        const AboveTheMesh above(globe);
-        const auto content = make(above.local);
-        above.mesh.addChild(content);
-        expectDrawnWhereItIs(globe, *content, 20000.0);
-        EXPECT_NE(installedOn(*globe.tiles[19]), nullptr);
-    };
-    expectDrawn([](const osg::Vec3d& at) { return osg::ref_ptr<Drawing<osg::Node>>(new Drawing<osg::Node>(at)); });
-    for (const bool hasChild : {false, true}) {
-        expectDrawn([hasChild](const osg::Vec3d& at) {
-            const osg::ref_ptr<Balloon> balloon = new Balloon(at);
-            if (hasChild) balloon->addChild(makeTower({}));
-            return balloon;
-        });
-    }
-}
 
 TEST(ContentOfFiles, IsDrawnByAGroupOfAnyClass) {
     MeshGlobe globe;
@@ -89,7 +59,11 @@ TEST(ContentOfFiles, IsDrawnByAGroupOfAnyClass) {
     balloon->addChild(makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), "none.osgb"));
     globe.tiles[19]->setRange(1, 0.0f, 1e10f);
     putBelow(*globe.tiles[19], balloon);
-    expectDrawnWhereItIs(globe, *balloon, 8e6);
+    installBins(*globe.root);
+    (void)globe.draws(*globe.root, beside(ecefDeg(-22.5, 150.0, 8e6)));
+    EXPECT_FALSE(balloon->isDrawn);
+    (void)globe.draws(*globe.root, beside(ecefDeg(22.5, -22.5, 8e6)));
+    EXPECT_TRUE(balloon->isDrawn);
 }
 
 // Nothing asks for the bounds of what it does not show.
@@ -111,33 +85,6 @@ TEST(ContentOfMeshes, IsNoticedBelowALevelThatIsNotShown) {
     globe.expectDrawn(*tower, beside(above.place), true, 2);
 }
 
-// Lies for all visitors but those that draw, for which it stands upright.
-struct Upright : osg::MatrixTransform {
-    bool computeLocalToWorldMatrix(osg::Matrix& matrix, osg::NodeVisitor* nv) const override {
-        const bool isUpright = nv && nv->asCullVisitor();
-        matrix.preMultRotate(osg::Quat(isUpright ? osg::PI_4 : -osg::PI_4, osg::X_AXIS));
-        return true;
-    }
-};
-
-TEST(ContentOfMeshes, IsDrawnAsItTurnsToTheEye) {
-    MeshGlobe globe;
-    const AboveTheMesh above(globe);
-    const osg::ref_ptr<osg::MatrixTransform> sign = new Upright;
-    sign->addChild(makeTower(osg::Vec3d(0.0, -30000.0, -30000.0), 60000.0f));
-    osg::Matrixd frame;
-    globe.root->getEllipsoidModel()->computeLocalToWorldTransformFromLatLongHeight(
-        osg::DegreesToRadians(22.5), osg::DegreesToRadians(-22.5), 0.0, frame);
-    const osg::ref_ptr<osg::MatrixTransform> stand =
-        new osg::MatrixTransform(frame * osg::Matrixd::inverse(above.mesh.getWorldMatrices()[0]));
-    stand->addChild(sign);
-    above.mesh.addChild(stand);
-    const CullView view = beside(ecefDeg(22.5, -22.5, 25000.0));
-    ASSERT_TRUE(globe.draws(*sign, view));
-    installBins(*globe.root);
-    EXPECT_TRUE(globe.draws(*sign, view));
-}
-
 TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
     MeshGlobe globe;
     const AboveTheMesh above(globe);
@@ -149,37 +96,6 @@ TEST(ContentOfMeshes, IsDrawnWhereABillboardHasMovedIt) {
     billboard->setPosition(0, above.local);
     billboard->dirtyBound();
     globe.expectDrawn(*billboard, beside(above.place), true, 2);
-}
-
-// A file of one transform with ground, a house, a tower in the air, and a mill that an application moves.
-TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove) {
-    FiledGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> content = makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0);
-    const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
-    std::vector<osg::ref_ptr<osg::MatrixTransform>> things;
-    const osg::Vec3d inTheAir = ecefDeg(15, 10, 30000.0);
-    for (const osg::Vec3d& place : {ecefDeg(20, 20, 200.0), inTheAir, ecefDeg(25, 30, 200.0)}) {
-        things.push_back(makeTower(place));
-        things.back()->setMatrix(things.back()->getMatrix() * toLocal);
-        content->addChild(things.back());
-    }
-    osg::MatrixTransform& mill = *things[2];
-    mill.setDataVariance(osg::Object::DYNAMIC);
-    pageOut(*globe.tile);
-    putBelow(*globe.tile, makeGroup({content}));
-    installBins(*globe.root);
-    update(*globe.root);
-    EXPECT_NE(installedOn(*content->getChild(0)), nullptr) << "the ground";
-    for (const auto& thing : things) {
-        EXPECT_EQ(installedOn(*thing), nullptr);
-        EXPECT_TRUE(thing->getCullingActive());
-    }
-    EXPECT_TRUE(globe.draws(*things[0], downTo(20, 20, 3000.0, 5.0)));
-    EXPECT_TRUE(globe.draws(*things[1], beside(inTheAir)));
-    EXPECT_FALSE(globe.draws(*things[0], downTo(12, 5, 3000.0, 5.0)));
-    EXPECT_TRUE(globe.draws(mill, downTo(25, 30, 3000.0, 5.0)));
-    mill.setMatrix(osg::Matrixd::translate(ecefDeg(25, 33, 40000.0)) * toLocal);
-    globe.expectDrawn(mill, beside(ecefDeg(25, 33, 40000.0)), true, 2);
 }
 
 TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
@@ -209,46 +125,38 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
     EXPECT_TRUE(globe.draws(*tower, beside(place)));
 }
 
-// What OSG does not cull below a tile keeps the tile and those above it, too: a light shines on everything beside it.
-class NeverCulled : public testing::TestWithParam<bool> {
-protected:
-    // Adds it beside the ground of the leaf, or beside the leaf.
-    static void add(FiledGlobe& globe, osg::Node& content) {
-        osg::Group* const leaf = globe.group->getChild(0)->asGroup();
-        (GetParam() ? leaf->getChild(0)->asGroup() : globe.group.get())->addChild(&content);
-    }
-    // From the next view on.
-    static void expectOnceAdded(FiledGlobe& globe, osg::Node& content, const std::function<bool()>& shows) {
-        EXPECT_FALSE(shows());
-        add(globe, content);
+// It keeps the tile and those above it, from the next view on.
+void expectNeverCulled(osg::Node& content, const std::function<bool(FiledGlobe&)>& shows) {
+    for (const bool isWithin : {false, true}) {
+        FiledGlobe globe;
+        EXPECT_FALSE(shows(globe));
+        (isWithin ? globe.group->getChild(0)->asGroup()->getChild(0)->asGroup() : globe.group.get())
+            ->addChild(&content);
         for (int i = 0; i < 2; ++i) {
-            EXPECT_TRUE(shows()) << i;
+            EXPECT_TRUE(shows(globe)) << i << isWithin;
             update(*globe.root);
         }
         installBins(*globe.root);
-        EXPECT_TRUE(shows());
+        EXPECT_TRUE(shows(globe)) << isWithin;
     }
-};
+}
 
-TEST_P(NeverCulled, IsALightSource) {
-    FiledGlobe globe;
+// It shines on everything beside it.
+TEST(NeverCulled, IsALightSource) {
     const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    expectOnceAdded(globe, *source, [&] { return globe.shines(*source->getLight(), downTo(20, 100.0)); });
+    expectNeverCulled(*source, [&](FiledGlobe& globe) { return globe.shines(*source->getLight(), downTo(20, 100.0)); });
 }
 
 // It draws a picture of its own, into a texture for instance, whether the tile is in view or not.
-TEST_P(NeverCulled, IsACamera) {
-    FiledGlobe globe;
+TEST(NeverCulled, IsACamera) {
     const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setRenderOrder(osg::Camera::PRE_RENDER);
     camera->addChild(makeTower(ecefDeg(20, 20, 200.0)));
-    expectOnceAdded(globe, *camera, [&] {
+    expectNeverCulled(*camera, [](FiledGlobe& globe) {
         (void)globe.draws(*globe.tile, beside(ecefDeg(20, 20, 30000.0)));
         return !globe.visitor->getRenderStage()->getPreRenderList().empty();
     });
 }
-
-INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
 
 // An application's callback in front of the bin's: the clones of its node share both.
 TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {

@@ -86,21 +86,6 @@ TEST(HoledGlobe, IsSeenThroughWhereOneOfItsSmallestTilesIsMissing) {
     }
 }
 
-TEST(HoledGlobe, IsSeenThroughWhereNoLevelIsDue) {
-    for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
-        InstalledGlobe globe;
-        osg::PagedLOD& tile = *globe.tiles[19];
-        tile.setRangeMode(mode);
-        tile.setRange(0, 0.0f, 1e10f);
-        EXPECT_FALSE(globe.drawsAntipode());
-        tile.setRange(0, 1e9f, 1e10f);
-        tile.setRange(1, 0.0f, 1.0f);
-        EXPECT_TRUE(globe.drawsAntipode());
-        tile.setRange(0, 1.0f, 1e10f);
-        EXPECT_FALSE(globe.drawsAntipode());
-    }
-}
-
 TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
     InstalledGlobe globe;
     globe.tiles[19]->setNodeMask(0);
@@ -113,15 +98,6 @@ TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
     EXPECT_TRUE(globe.drawsAntipode());
     globe.tiles[19]->setNodeMask(~0u);
     EXPECT_FALSE(globe.drawsAntipode());
-}
-
-TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {
-    MeshGlobe globe(40000.0);
-    osg::Geode* const geode = drawableOf(*globe.tiles[19])->getParent(0)->asGeode();
-    geode->addChild(makeTower(osg::Vec3d(0, 0, 0)));
-    installBins(*globe.root);
-    const osg::Vec3d eye = ecefDeg(21.3, -21.7, 30000.0);
-    EXPECT_TRUE(globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0)));
 }
 
 // A class of the application's that pages tiles need not show what OSG's would.

@@ -322,26 +322,6 @@ TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpd
     }
 }
 
-TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatWereFittedAnewMeanwhile) {
-    write(500.0, 6000.0);
-    const CapturedNotes notes;
-    load();
-    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
-    terrain->addChild(_root);
-    _scene = terrain;
-    installBins(*terrain, {}, _file);
-    page();
-    const osg::ref_ptr<osgDB::Options> options = dynamic_cast<osgDB::Options*>(_north->getDatabaseOptions());
-    terrain->setVerticalScale(2.0f);
-    test::update(*_scene);
-    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
-    const std::string file = _north->getDatabasePath() + _north->getFileName(1);
-    ASSERT_TRUE(osgDB::readRefNodeFile(file, options));
-    test::update(*_scene);
-    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
-    EXPECT_NEAR(highOf(*_root), 6000.0, 1.0);
-}
-
 // By other bins than those of the tiles above.
 TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatGotNewBinsMeanwhile) {
     write(500.0, 6000.0);

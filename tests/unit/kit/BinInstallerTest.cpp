@@ -75,30 +75,6 @@ TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
     EXPECT_EQ(installBins(*db.root), 1u);
 }
 
-// In the frames of transforms, too, while OSG tests what is beside as always.
-TEST(BinInstaller, MethodNoneCullsNothingBelowItsNode) {
-    Database db;
-    const auto moved = [&](osg::Group& parent) {
-        const osg::ref_ptr<osg::MatrixTransform> far = new osg::MatrixTransform(osg::Matrixd::translate(0, 3e7, 0));
-        far->addChild(makeTriangle());
-        parent.addChild(far);
-    };
-    const auto drawn = [&] {
-        const auto view = CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-        return cull(*db.above, view).drawn.size();
-    };
-    moved(*db.root);
-    moved(*db.above);
-    for (int i = 0; i < 2; ++i) {
-        installBins(*db.root, by(Method::None));
-        EXPECT_EQ(drawn(), 2u);
-        EXPECT_TRUE(db.above->isCullingActive());
-    }
-    removeBins(*db.root);
-    EXPECT_EQ(drawn(), 1u);
-    EXPECT_EQ(db.root->getCullCallback(), nullptr);
-}
-
 TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     Database db;
     const osg::ref_ptr<osg::MatrixTransform> shift = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));

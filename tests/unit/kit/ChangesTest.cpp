@@ -24,27 +24,6 @@ TEST(Changes, OfReferenceFramesCountInTheSameFrame) {
     EXPECT_FALSE(globe.drawsAntipode());
 }
 
-// Takes a corner of the tile's mesh away, and puts it back.
-TEST(Changes, OfVerticesThatAreAnnouncedCountInTheSameFrameAndWhatIsWholeAgainAfterTheNextUpdate) {
-    InstalledGlobe globe;
-    osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
-    auto& vertices = dynamic_cast<osg::Vec3Array&>(*geometry.getVertexArray());
-    const osg::Vec3 corner = vertices[0];
-    const auto moveCorner = [&](const osg::Vec3& place) {
-        vertices[0] = place;
-        vertices.dirty();
-        geometry.dirtyBound();
-    };
-    EXPECT_FALSE(globe.drawsAntipode());
-    moveCorner(vertices[40]);
-    EXPECT_TRUE(globe.drawsAntipode());
-    update(*globe.root);
-    moveCorner(corner);
-    EXPECT_TRUE(globe.drawsAntipode());
-    update(*globe.root);
-    EXPECT_FALSE(globe.drawsAntipode());
-}
-
 // A triangle in the middle becomes a point.
 TEST(Changes, OfTrianglesCountAlsoWhereNewOnesTakeThePlaceOfOldOnesInMemory) {
     InstalledGlobe globe;
@@ -70,43 +49,6 @@ TEST(Changes, OfVerticesWithoutAWordCountWhenBinsAreInstalledAgain) {
     EXPECT_LT(highest(), 12000.0);
     installBins(*globe.root);
     EXPECT_GE(highest(), 12000.0);
-}
-
-// A tile, and its mesh.
-TEST(Changes, ThatTakeNodesAwayCountInTheSameFrameUntilBinsAreInstalledAgain) {
-    for (const int depth : {0, 3}) {
-        InstalledGlobe globe;
-        osg::ref_ptr<osg::Node> taken = globe.tiles[19];
-        for (int i = 0; i < depth; ++i) taken = taken->asGroup()->getChild(0);
-        osg::Group& parent = *taken->getParent(0);
-        EXPECT_FALSE(globe.drawsAntipode()) << depth;
-        parent.removeChild(taken);
-        EXPECT_TRUE(globe.drawsAntipode()) << depth;
-        update(*globe.root);
-        parent.addChild(taken);
-        globe.expectAntipode(true);
-        installBins(*globe.root);
-        EXPECT_FALSE(globe.drawsAntipode()) << depth;
-    }
-}
-
-TEST(Changes, OfDepthWithinMeshesCountWhenBinsAreInstalledAgain) {
-    InstalledGlobe globe;
-    ignoreDepth(*drawableOf(*globe.tiles[15]));
-    EXPECT_FALSE(globe.drawsAntipode());
-    installBins(*globe.root);
-    EXPECT_TRUE(globe.drawsAntipode());
-    InstalledGlobe other;
-    ignoreDepth(*other.tiles[15]);
-    EXPECT_TRUE(other.drawsAntipode());
-}
-
-TEST(Changes, OfCullingBelowTilesCountWhenBinsAreInstalledAgain) {
-    InstalledGlobe globe;
-    drawableOf(*globe.tiles[15])->setCullingActive(false);
-    EXPECT_FALSE(globe.drawsAntipode());
-    installBins(*globe.root);
-    EXPECT_TRUE(globe.drawsAntipode());
 }
 
 TEST(Changes, OfRadiiCountWhenBinsAreInstalledAgain) {

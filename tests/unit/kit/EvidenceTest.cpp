@@ -230,19 +230,6 @@ TEST(WhatIgnoresDepth, IsToldFromWhatStoodAtItsAddress) {
     EXPECT_TRUE(globe.draws(*tower, MeshGlobe::fromAbove()));
 }
 
-// As a camera that follows a model does: OSG does not tell of the bound of that model then, and its sphere stays.
-TEST(WhatIgnoresDepth, IsNoticedInAModelWhoseBoundTheApplicationComputes) {
-    AntipodeFile globe;
-    const osg::ref_ptr<osg::Group> model = new osg::Group;
-    model->addChild(makeTower(globe.antipode, 1000.0f));
-    globe.add(*model);
-    const osg::ref_ptr<osg::Node> sign = makeTower(globe.antipode, 10.0f);
-    ignoreDepth(*sign);
-    model->addChild(sign);
-    (void)model->getBound();
-    EXPECT_TRUE(globe.draws(*sign, MeshGlobe::fromAbove()));
-}
-
 TEST(WhatIgnoresDepth, IsNoticedInAModelWhoseBoundIsSaidToHaveChanged) {
     AntipodeFile globe;
     const osg::ref_ptr<osg::Node> model = makeTower(globe.antipode);

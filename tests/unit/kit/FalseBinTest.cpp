@@ -165,25 +165,6 @@ TEST_F(FalseBins, LeaveATileAboveVisibleWhoseOwnBinIsNotKnown) {
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
 }
 
-TEST_F(FalseBins, ThatArePagedInWhereNothingWasInstalledAreWidenedToo) {
-    _hasGlobe = false;
-    writeFalse();
-    ASSERT_TRUE(osgDB::writeNodeFile(*makePaged(new osg::Group, "root.osgb", 1e9f), _folder / "above.osgb"));
-    _scene = osgDB::readRefNodeFile(_folder / "above.osgb");
-    ASSERT_EQ(installBins(*_scene), 0u);
-    auto* const above = dynamic_cast<osg::PagedLOD*>(_scene.get());
-    ASSERT_TRUE(above);
-    const osg::ref_ptr<osg::Node> paged = readBelow(*above);
-    putBelow(*above, paged);
-    _root = dynamic_cast<osg::PagedLOD*>(paged->asGroup()->getChild(0));
-    page();
-    update();
-    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
-    EXPECT_EQ(setCullOptions(*_scene, {}), 2u);
-    update();
-    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
-}
-
 TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
     for (const bool hasGlobe : {true, false}) {
         _hasGlobe = hasGlobe;
@@ -197,23 +178,6 @@ TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
         update();
         EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
     }
-}
-
-TEST_F(FalseBins, OfAFileThatIsPagedInSeveralPlacesAreWidenedInEach) {
-    write(_south, 200.0, "");
-    const osg::ref_ptr<osg::PagedLOD> middle = makePaged(makeMeshTile(_south, 200.0), "deep.osgb", 1e9f);
-    middle->setUserValue("osgAnalyticBin", claim(_south).toText());
-    ASSERT_TRUE(osgDB::writeNodeFile(*middle, _folder / "leaf.osgb"));
-    ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(_south, 7000.0), _folder / "deep.osgb"));
-    pageOut(*_root);
-    std::vector<osg::ref_ptr<osg::Node>> copies{readBelow(*_root), readBelow(*_root)};
-    for (const auto& copy : copies) {
-        auto* const paged = dynamic_cast<osg::PagedLOD*>(copy.get());
-        ASSERT_TRUE(paged);
-        putBelow(*paged, readBelow(*paged));
-        update();
-    }
-    for (const auto& copy : copies) EXPECT_GE(altitudeOf(*copy).upper, 7000.0 - 1.0);
 }
 
 // Nobody can tell whether such tiles fit into what is stored above.
@@ -262,23 +226,6 @@ TEST_F(FalseBins, OfTilesWhoseMeshCannotBeToldAreNotUsed) {
         EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << text;
     }
     EXPECT_EQ(_notes.count("cannot be compared"), 3u);
-}
-
-TEST_F(FalseBins, ReportedByATileThatWasOnItsWayWhenOptionsChangedAreWidened) {
-    for (const bool hasGlobe : {true, false}) {
-        _hasGlobe = hasGlobe;
-        writeFalse();
-        pageOut(*_root);
-        const osg::ref_ptr<osgDB::Options> asked = dynamic_cast<osgDB::Options*>(_root->getDatabaseOptions());
-        ASSERT_EQ(setCullOptions(*_scene, by(Method::Exact)), 1u);
-        ASSERT_NE(_root->getDatabaseOptions(), asked.get());
-        _leaf = osgDB::readRefNodeFile(_folder / "leaf.osgb", asked);
-        ASSERT_TRUE(_leaf);
-        putBelow(*_root, _leaf);
-        update();
-        EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0) << hasGlobe;
-        EXPECT_EQ(installedOn(*_leaf)->getCullOptions().method, Method::Exact) << hasGlobe;
-    }
 }
 
 TEST_F(FalseBins, HideNoPeakFromTheFrameOnInWhichItAppears) {

@@ -56,49 +56,6 @@ TEST(HiddenByTerrain, NeedsADepthTestInViews) {
     EXPECT_FALSE(globe.drawsAlongRow(*behind));
 }
 
-// A globe of large tiles, seen from above, and models on it.
-struct ModelsOnRoundGlobe : MeshGlobe {
-    explicit ModelsOnRoundGlobe(const CullOptions& options, double altitude = 0.0) : MeshGlobe(altitude) {
-        scene = makeGroup({root});
-        installBins(*root, options);
-    }
-    // In the second of two views: whether the near plane may cut terrain is found out once a node has asked.
-    [[nodiscard]] bool drawsModelAt(const osg::Vec3d& at, const CullView& view) {
-        const auto model = askingModel(at);
-        scene->addChild(model);
-        (void)draws(*model, view);
-        const bool isDrawn = draws(*model, view);
-        scene->removeChild(model);
-        return isDrawn;
-    }
-};
-
-CullView fromAbove(double altitude = 5e5, double near = 1e3) {
-    CullView view = MeshGlobe::fromAbove(altitude);
-    view.projection = osg::Matrixd::perspective(100.0, 1.0, near, 1e8);
-    return view;
-}
-
-const osg::Vec3d kBelowEye = ecefDeg(22.5, -22.5, 300.0), kOtherSide = ecefDeg(-22.5, 157.5, 300.0);
-
-// Where a near plane cuts terrain open, models behind the horizon may be seen through it.
-TEST(HiddenByTerrain, HidesNothingBehindTheHorizonWhereTheNearPlaneMayCutTerrain) {
-    ModelsOnRoundGlobe globe(CullOptions(), 8000.0);
-    for (const double near : {1e3, 8e3})
-        EXPECT_EQ(globe.drawsModelAt(kOtherSide, fromAbove(20000.0, near)), near > 4e3) << near;
-}
-
-TEST(HiddenByTerrain, LeavesOutWhatIsBehindTheHorizonWhereOsgComputesTheNearPlane) {
-    ModelsOnRoundGlobe globe{CullOptions()};
-    CullView view = MeshGlobe::fromAbove();
-    computeNear(view, *globe.scene);
-    EXPECT_FALSE(globe.drawsModelAt(kOtherSide, view));
-    EXPECT_TRUE(globe.drawsModelAt(kBelowEye, view));
-    // a plane at 5000 km
-    globe.visitor->setNearFarRatio(0.5);
-    EXPECT_TRUE(globe.drawsModelAt(kOtherSide, view));
-}
-
 // The visitor of one frame sees from somewhere else in the next, and in another pass of the same one.
 TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabaseAndForgetsOtherViews) {
     ModelsOnGlobe globe;

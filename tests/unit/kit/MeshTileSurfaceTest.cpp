@@ -8,6 +8,8 @@
 #include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
 
+#include <support/Planets.h>
+
 namespace osgAnalyticBin::test::surfaces {
 namespace {
 
@@ -173,6 +175,10 @@ osg::BoundingBox boxAbove() {
 struct Lights : osg::Node {
     osg::BoundingSphere computeBound() const override { return osg::BoundingSphere(boxAbove()); }
 };
+// Beside its children.
+struct Cloud : osg::Group {
+    osg::BoundingSphere computeBound() const override { return osg::BoundingSphere(boxAbove()); }
+};
 struct OwnGeometry : osg::Geometry {
     osg::BoundingBox computeBoundingBox() const override { return boxAbove(); }
 };
@@ -198,7 +204,8 @@ TEST(TileSurface, HoldsTheBoundOfWhatItsVerticesDoNotTell) {
     withBox->setComputeBoundingBoxCallback(new OwnBox);
     withInitialBound->setInitialBound(boxAbove());
     drawn->setDrawCallback(new OwnDrawing);
-    const std::vector<osg::ref_ptr<osg::Node>> contents{new Lights, ofOtherClass, withBox, withInitialBound, drawn};
+    const std::vector<osg::ref_ptr<osg::Node>> contents{new Lights, new Cloud,        ofOtherClass,
+                                                        withBox,    withInitialBound, drawn};
     for (std::size_t number = 0; number < contents.size(); ++number) {
         const auto tile = makeGroup({ground});
         const std::uint64_t without = surfaceFingerprint(*tile, osg::Matrixd());
@@ -304,6 +311,29 @@ TEST(TileSurface, IsUnknownOnAGlobeWithoutRightRadii) {
     const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, 20, 21), 200.0);
     EXPECT_TRUE(tileSurface(*tile, osg::EllipsoidModel(), osg::Matrixd::identity()).bin.valid());
     EXPECT_FALSE(tileSurface(*tile, osg::EllipsoidModel(std::nan(""), 6.4e6), osg::Matrixd::identity()).bin.valid());
+}
+
+// Mountains of small bodies are a tenth of their radius high; what is far above any is no terrain, in any unit.
+TEST(TileSurface, TellsTerrainOfAnyPlanetFromWhatIsNone) {
+    Random random(2300);
+    for (const Planet& planet : kPlanets) {
+        for (const double unit : planet.units()) {
+            const core::Ellipsoid ellipsoid = planet.in(unit);
+            const double radius = ellipsoid.equatorialRadius(), polar = ellipsoid.polarRadius();
+            const osg::EllipsoidModel model(radius, polar);
+            const auto isKnown = [&](double altitude) {
+                const GeodeticBin extents = GeodeticBin::fromDegrees({10.0, 15.0}, {20.0, 25.0}, {0.0, 0.0});
+                const auto tile = makeVpbTile({extents, 9, 0.005 * radius, altitude, altitude}, random, model);
+                return tileSurface(*tile, model, osg::Matrixd()).bin.valid();
+            };
+            const double mountain =
+                std::min(22000.0 * radius / planet.equatorialRadius, 0.09 * std::min(radius, polar));
+            EXPECT_TRUE(isKnown(mountain)) << planet.name << unit;
+            EXPECT_TRUE(isKnown(-std::min(mountain, 0.05 * polar))) << planet.name << unit;
+            EXPECT_FALSE(isKnown(0.12 * std::max(radius, polar))) << planet.name << unit;
+            EXPECT_FALSE(isKnown(-0.2 * std::max(radius, polar))) << planet.name << unit;
+        }
+    }
 }
 
 // A few bytes in a file may claim ranges of billions of vertices, or triangles that end in the middle.

@@ -1,20 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Cameras in the scene: their depth buffers, their settings, those between a database and its tiles, the two eyes of a
-// stereo view, and the shadow maps of osgShadow: tiles outside of the picture, and beyond the viewer's horizon, still
-// cast shadows into it. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each
-// camera. Cameras of all frames and orders: tests/long/scenes.
+// Cameras in the scene: their depth buffers, their settings, those that draw shadow maps, those between a database and
+// its tiles, and the two eyes of a stereo view. Oracle of these: samples of the tiles. Cameras of all frames and
+// orders: tests/long/scenes.
 
 #include "KitTest.h"
 
 #include <osg/DisplaySettings>
-#include <osg/GraphicsContext>
 #include <osg/State>
-#include <osgShadow/ShadowSettings>
-#include <osgShadow/ShadowedScene>
-#include <osgShadow/ViewDependentShadowMap>
 #include <osgUtil/SceneView>
+#include <osgViewer/GraphicsWindow>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -32,24 +28,6 @@ std::vector<Look> looksAt(osg::Node& scene, const CullView& view, CameraGlobe& g
     (void)cull(scene, view);
     return globe.takeLooks();
 }
-
-// A window that is never opened.
-class NoWindow : public osg::GraphicsContext {
-public:
-    explicit NoWindow(unsigned int depthBits) {
-        _traits = new Traits;
-        _traits->depth = depthBits;
-    }
-    bool valid() const override { return true; }
-    bool realizeImplementation() override { return true; }
-    bool isRealizedImplementation() const override { return true; }
-    void closeImplementation() override {}
-    bool makeCurrentImplementation() override { return true; }
-    bool makeContextCurrentImplementation(osg::GraphicsContext*) override { return true; }
-    bool releaseContextImplementation() override { return true; }
-    void bindPBufferToTextureImplementation(GLenum) override {}
-    void swapBuffersImplementation() override {}
-};
 
 std::size_t reachedBy(osg::Node& scene, CameraGlobe& globe, osg::State* state = nullptr) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -87,7 +65,9 @@ TEST(DepthBuffers, OfWindowsHaveToBeFineForAHorizon) {
     CameraGlobe globe(horizonOptions());
     const std::size_t hidden = reachedBy(globe.root(), globe);
     for (const unsigned int bits : {16u, 24u, 32u}) {
-        const osg::ref_ptr<osg::GraphicsContext> window = new NoWindow(bits);
+        const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+        traits->depth = bits;
+        const osg::ref_ptr<osg::GraphicsContext> window = new osgViewer::GraphicsWindowEmbedded(traits);
         const osg::ref_ptr<osg::State> state = new osg::State;
         state->setGraphicsContext(window);
         EXPECT_EQ(reachedBy(globe.root(), globe, state) > hidden, bits < 24) << bits;
@@ -167,40 +147,31 @@ TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
 
 // As osgUtil::SceneView culls it: once for each eye, each with a visitor and matrices of its own.
 TEST(Stereo, EachEyeKeepsWhatItSees) {
-    using osg::DisplaySettings;
-    // the eyes are this far apart for a screen at 0.5 m: a planet on the table
-    constexpr double kEyeScale = 2e6;
-    for (const auto mode : {DisplaySettings::QUAD_BUFFER, DisplaySettings::HORIZONTAL_SPLIT}) {
-        CameraGlobe globe(horizonOptions());
-        const osg::ref_ptr<DisplaySettings> settings = new DisplaySettings;
-        settings->setStereo(true);
-        settings->setStereoMode(mode);
-        const osg::ref_ptr<osgUtil::SceneView> view = new osgUtil::SceneView;
-        view->setDefaults();
-        view->setDisplaySettings(settings);
-        view->setViewport(0, 0, 640, 480);
-        view->setSceneData(&globe.root());
-        view->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        view->setFusionDistance(osgUtil::SceneView::USE_FUSION_DISTANCE_VALUE,
-                                static_cast<float>(kEyeScale * settings->getScreenDistance()));
-        view->setFrameStamp(new osg::FrameStamp);
-        Random random(110);
-        LookTotals totals;
-        bool areDifferent = false;
-        for (int i = 0; i < 6; ++i) {
-            view->setViewMatrix(randomViewMatrix(random, 2e5));
-            view->setProjectionMatrix(osg::Matrixd::perspective(random.uniform(20, 60), 1.3, 1.0, 1e8));
-            view->cull();
-            const std::vector<Look> looks = globe.takeLooks();
-            ASSERT_EQ(looks.size(), 2u);
-            EXPECT_NE(looks[0].modelView, looks[1].modelView);
-            areDifferent = areDifferent || looks[0].reached != looks[1].reached;
-            for (const Look& look : looks)
-                EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << mode << i;
-        }
-        EXPECT_TRUE(areDifferent);
-        EXPECT_LT(totals.reached, totals.tiles / 2);
+    CameraGlobe globe(horizonOptions());
+    const osg::ref_ptr<osg::DisplaySettings> settings = new osg::DisplaySettings;
+    settings->setStereo(true);
+    const osg::ref_ptr<osgUtil::SceneView> view = new osgUtil::SceneView;
+    view->setDefaults();
+    view->setDisplaySettings(settings);
+    view->setViewport(0, 0, 640, 480);
+    view->setSceneData(&globe.root());
+    view->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    // a planet on the table, on a screen at 0.5 m
+    view->setFusionDistance(osgUtil::SceneView::USE_FUSION_DISTANCE_VALUE, 2e6f * settings->getScreenDistance());
+    view->setFrameStamp(new osg::FrameStamp);
+    Random random(110);
+    LookTotals totals;
+    for (int i = 0; i < 6; ++i) {
+        view->setViewMatrix(randomViewMatrix(random, 2e5));
+        view->setProjectionMatrix(osg::Matrixd::perspective(random.uniform(20, 60), 1.3, 1.0, 1e8));
+        view->cull();
+        const std::vector<Look> looks = globe.takeLooks();
+        ASSERT_EQ(looks.size(), 2u);
+        EXPECT_NE(looks[0].modelView, looks[1].modelView);
+        for (const Look& look : looks)
+            EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << i;
     }
+    EXPECT_LT(totals.reached, totals.tiles / 2);
 }
 
 TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
@@ -238,66 +209,17 @@ TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
     EXPECT_LT(reached["none"], 20u);
 }
 
-// A sun, and a viewer above the ground near the line between day and night.
-struct Evening {
-    osg::Vec3d eye, toLight;
-    CullView view;
-
-    explicit Evening(Random& random) {
-        const osg::Vec3d up = osgVector(random.direction());
-        osg::Vec3d east = up ^ osgVector(random.direction());
-        east.normalize();
-        const osg::Vec3d north = up ^ east;
-        eye = up * (kEarthRadius + random.logUniform(1e4, 2e5));
-        const double heading = random.uniform(0, 6.28);
-        const osg::Vec3d ahead = east * std::cos(heading) + north * std::sin(heading);
-        view = CullView::lookAt(eye, eye + ahead - up * random.uniform(0.1, 0.5), up, random.uniform(20, 50));
-        // as shadow techniques want it: an end
-        view.projection = osg::Matrixd::perspective(40.0, 1.0, 1e3, 1e6);
-        toLight = east + up * random.uniform(0.02, 0.3);
-        toLight.normalize();
-    }
-};
-
-osg::ref_ptr<osgShadow::ShadowedScene> shadowedScene(CameraGlobe& globe, osgShadow::ShadowTechnique* technique,
-                                                     const osg::Vec3d& toLight) {
-    osg::ref_ptr<osgShadow::ShadowedScene> scene = new osgShadow::ShadowedScene(technique);
-    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    source->getLight()->setPosition(osg::Vec4(osg::Vec3(toLight), 0.0f));
-    scene->addChild(source);
-    scene->addChild(&globe.root());
-    scene->setCullingActive(false);
-    // the tiles of a globe without geometry have no bounds of their own
-    globe.root().setInitialBound(osg::BoundingSphere(osg::Vec3(), float(kEarthRadius) + 9000.0f));
-    update(*scene);
-    return scene;
-}
-
-// The picture's look, then those of the shadow cameras.
-std::vector<Look> looksAt(osgShadow::ShadowedScene& scene, CullView view, CameraGlobe& globe) {
-    view.camera = new osg::Camera;
-    view.camera->setViewMatrix(view.modelView);
-    view.camera->setProjectionMatrix(view.projection);
-    view.camera->setComputeNearFarMode(view.computeNearFar);
-    (void)cull(scene, view);
-    return globe.takeLooks();
-}
-
-// The technique may have near and far planes computed for its own use: the projection stays as it is.
-TEST(ShadowPasses, ShowWhereTheNearPlaneCutsTheGlobeOpen) {
+// As by osgShadow::ViewDependentShadowMap: the camera's projection stays as it is.
+TEST(CameraSettings, WherePlanesAreComputedForShadowsAloneTheNearPlaneMayCutTheGlobeOpen) {
     CameraGlobe globe(horizonOptions());
-    Random random(122);
-    LookTotals totals;
-    for (int i = 0; i < 8; ++i) {
-        Evening evening(random);
-        evening.view.projection = osg::Matrixd::perspective(40.0, 1.0, 1e6, 2e7);
-        const osg::ref_ptr<osgShadow::ViewDependentShadowMap> technique = new osgShadow::ViewDependentShadowMap;
-        const osg::ref_ptr<osgShadow::ShadowedScene> scene = shadowedScene(globe, technique.get(), evening.toLight);
-        scene->getShadowSettings()->setComputeNearFarModeOverride(osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES);
-        const std::vector<Look> looks = looksAt(*scene, evening.view, globe);
-        EXPECT_TRUE(totals.add(globe, looks.at(0), NearPlane::AtMinusOne).empty()) << i;
+    CullView view = fromAfar();
+    view.camera = new Camera;
+    view.camera->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    view.computeNearFar = CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES;
+    for (const double near : {1.0, 2.8e7}) {
+        view.projection = osg::Matrixd::perspective(40.0, 1.0, near, 1e8);
+        EXPECT_EQ(looksAt(globe.root(), view, globe).at(0).reached.size() < 128u, near == 1.0);
     }
-    EXPECT_GT(totals.seen, 8u);
 }
 
 }  // namespace

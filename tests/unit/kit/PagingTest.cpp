@@ -314,32 +314,6 @@ TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
     EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");
 }
 
-TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {
-    const osg::ref_ptr<osgDB::Options> plain = new osgDB::Options;
-    plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
-    const osg::ref_ptr<osg::Node> before = osgDB::readRefNodeFile(_file, plain);
-    const osg::ref_ptr<osg::Node> ours = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
-    EXPECT_NE(callbackIn(ours), nullptr);
-    EXPECT_EQ(callbackIn(before), nullptr);
-    EXPECT_EQ(osgDB::readRefNodeFile(_file, plain), before);
-}
-
-TEST_F(ObjectCache, InstallationsShareNothing) {
-    const auto read = [this](const osg::ref_ptr<osgDB::Options>& options) {
-        return osgDB::readRefNodeFile(_file, options);
-    };
-    constexpr auto kHint = osgDB::Options::CACHE_ALL;
-    const auto marsOptions = pagingOptions(kHint, osg::EllipsoidModel(3396190.0, 3376200.0));
-    const auto earth = read(pagingOptions(kHint)), twin = read(pagingOptions(kHint)), planet = read(marsOptions),
-               other = read(pagingOptions(kHint, osg::EllipsoidModel(), by(Method::Exact))), again = read(marsOptions);
-    ASSERT_TRUE(earth && twin && planet && other);
-    EXPECT_NE(earth, twin);
-    EXPECT_NE(callbackIn(earth)->getRadiiText(), "3396190 3376200");
-    for (const auto& node : {planet, again}) EXPECT_EQ(callbackIn(node)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(callbackIn(earth)->getCullOptions().method, Method::Quadratic);
-    EXPECT_EQ(callbackIn(other)->getCullOptions().method, Method::Exact);
-}
-
 // Others may draw it.
 TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsGetsNoBins) {
     struct Keeper : osgDB::ReadFileCallback {

@@ -79,10 +79,6 @@ osg::Matrixd mirroredView(Random& random) {
 const Kind kKinds[] = {
     {"off-axis", anyView, [](Random& random) { return randomFrustum(random); }},
     {"mirror", mirroredView, [](Random& random) { return randomFrustum(random); }},
-    {"negative aspect", anyView,
-     [](Random& random) { return osg::Matrixd::perspective(random.uniform(5, 90), -1.5, 1.0, 1e8); }},
-    {"upside down", anyView,
-     [](Random& random) { return randomFrustum(random) * osg::Matrixd::scale(1.0, -1.0, 1.0); }},
     {"infinite far", anyView, [](Random& random) { return infiniteFar(random.uniform(0.1, 1.0), 1.0); }},
     {"reversed depth", anyView, [](Random& random) { return reversed(randomFrustum(random)); }, NearPlane::AtPlusOne,
      false},
@@ -91,11 +87,7 @@ const Kind kKinds[] = {
     {"oblique near plane", anyView, [](Random& random) { return withObliqueNearPlane(randomFrustum(random), random); }},
     {"deep near plane", anyView, [](Random& random) { return randomFrustum(random, random.logUniform(1e4, 2e7), 1e9); },
      NearPlane::AtMinusOne, false},
-    {"deep near plane, reversed depth", anyView,
-     [](Random& random) { return reversed(randomFrustum(random, random.logUniform(1e4, 2e7), 1e9)); },
-     NearPlane::AtPlusOne, false},
     {"orthographic", anyView, [](Random& random) { return randomOrtho(random, -5e7, 1e8); }},
-    {"orthographic, mirrored", mirroredView, [](Random& random) { return randomOrtho(random, -5e7, 1e8); }},
     {"orthographic, near plane anywhere", anyView,
      [](Random& random) { return randomOrtho(random, random.uniform(-3e7, 3e7), 1e8); }, NearPlane::AtMinusOne, false},
     {"orthographic, reversed depth", anyView, [](Random& random) { return reversed(randomOrtho(random, -5e7, 1e8)); },
@@ -139,13 +131,14 @@ LookTotals totalsOf(const Kind& kind, CameraGlobe& globe, std::uint64_t seed, Ne
 
 TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
     for (const Method method : {Method::Quadratic, Method::Exact}) {
-        const CullOptions options = by(method);
-        CameraGlobe globe(options);
+        CameraGlobe globe(by(method));
         for (const Kind& kind : kKinds) {
-            // what near and far planes cut off is kept: only the sides cull
-            const LookTotals totals = totalsOf(kind, globe, 70, NearPlane::AtTheEye);
-            EXPECT_LT(totals.reached, 1.5 * double(totals.seen) + 1.0 * kViews) << kind.name;
-            EXPECT_LT(totals.reached, totals.tiles / 2) << kind.name;
+            // what near and far planes cut off is kept where only the sides cull
+            const LookTotals bySides = totalsOf(kind, globe, 70, NearPlane::AtTheEye);
+            EXPECT_LT(bySides.reached, bySides.tiles / 2) << kind.name;
+            const LookTotals byAll = totalsOf(kind, globe, 72, kind.nearPlane, osg::CullSettings::VIEW_FRUSTUM_CULLING);
+            for (const LookTotals& totals : {bySides, byAll})
+                EXPECT_LT(totals.reached, 1.6 * double(totals.seen) + 1.0 * kViews) << kind.name;
         }
     }
 }
@@ -159,33 +152,6 @@ TEST(Projections, TheHorizonHidesNothingInThePicture) {
         const LookTotals plain = totalsOf(kind, without, 71, kind.nearPlane);
         EXPECT_TRUE(!kind.hasHorizon || double(totals.reached) < 0.9 * double(plain.reached)) << kind.name;
     }
-}
-
-TEST(Projections, NearAndFarPlanesCullNothingBetweenThem) {
-    CameraGlobe globe;
-    for (const Kind& kind : kKinds) {
-        const LookTotals totals = totalsOf(kind, globe, 72, kind.nearPlane, osg::CullSettings::VIEW_FRUSTUM_CULLING);
-        EXPECT_LT(totals.reached, 1.6 * double(totals.seen) + 1.0 * kViews) << kind.name;
-    }
-}
-
-TEST(Projections, NearAndFarPlanesCullByThemselves) {
-    CameraGlobe globe;
-    CullView view = CullView::lookAt({4 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
-    view.projection = osg::Matrixd::perspective(60.0, 1.0, 3.6 * kEarthRadius, 4.2 * kEarthRadius);
-    using Settings = osg::CullSettings;
-    const auto reached = [&](int planes) {
-        view.cullingMode = Settings::VIEW_FRUSTUM_SIDES_CULLING | planes;
-        return lookOf(globe, view).reached.size();
-    };
-    const std::size_t none = reached(0);
-    const std::size_t near = reached(Settings::NEAR_PLANE_CULLING);
-    const std::size_t far = reached(Settings::FAR_PLANE_CULLING);
-    const std::size_t both = reached(Settings::NEAR_PLANE_CULLING | Settings::FAR_PLANE_CULLING);
-    EXPECT_EQ(none, 128u);
-    EXPECT_LT(near, none);  // the cap that faces the camera is cut off
-    EXPECT_LT(far, none);   // and the far side
-    EXPECT_EQ(none + both, near + far);
 }
 
 osg::Matrixd alongX(double eye) {
@@ -224,7 +190,7 @@ TEST(Projections, ATiltedNearPlaneCutsTheGlobeOpenAtOneSide) {
 }
 
 // Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
-// differ; so does one that is culled for twice in a frame, moved along its view.
+// differ.
 TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     CameraGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
@@ -244,14 +210,6 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     for (const Look& look : looks) EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty());
     EXPECT_LT(looks[0].reached.size(), looks[1].reached.size());
     EXPECT_EQ(looks[0].reached, looks[2].reached);
-
-    view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1.0, 1e8);
-    for (const double x : {3e7, 1e6, 3e7, 0.0}) {
-        view.modelView = osg::Matrixd::lookAt(osg::Vec3d(x, 0, 0), osg::Vec3d(x - 1.0, 0, 0), osg::Vec3d(0, 0, 1));
-        const Look look = lookOf(globe, view, *visitor);
-        EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << x;
-        EXPECT_EQ(look.reached.size() < 128u, x > kEarthRadius) << x;
-    }
 }
 
 osg::Vec3d anySample(const CameraGlobe& globe, Random& random) {
@@ -308,9 +266,7 @@ osg::Matrixd reversedInfiniteFromZero(double near) {
 // Cameras with a picture: what is in it, and not behind the horizon, is kept; and some of the rest is not.
 const Extreme kTrue[] = {
     {"fov 0.001", withProjection(osg::Matrixd::perspective(0.001, 1.0, 1.0, 1e8))},
-    {"fov 179", withProjection(osg::Matrixd::perspective(179.0, 1.0, 1.0, 1e8))},
     {"fov 179.9999", withProjection(osg::Matrixd::perspective(179.9999, 1.0, 1.0, 1e8))},
-    {"aspect 1e-6", withProjection(osg::Matrixd::perspective(40.0, 1e-6, 1.0, 1e8))},
     {"reversed, infinite, from 0", withProjection(reversedInfiniteFromZero(1.0))},
     {"tiny homogeneous", withProjection(homogeneous(kPlain, 1e-150))},
     {"near 1e-30", withProjection(osg::Matrixd::perspective(40.0, 1.0, 1e-30, 1e8))},
@@ -328,26 +284,18 @@ const Extreme kTrue[] = {
 // Cameras whose picture is in doubt: what may be in it is kept, and nothing is hidden.
 const Extreme kDoubtful[] = {
     {"near = far", withProjection(osg::Matrixd::perspective(40.0, 1.0, 1e3, 1e3))},
-    {"near = far, orthographic", withProjection(osg::Matrixd::ortho(-1e6, 1e6, -1e6, 1e6, 1e3, 1e3))},
     {"no width", withProjection(osg::Matrixd::ortho(0, 0, -1e6, 1e6, 1.0, 1e8))},
     {"squares that underflow", withProjection(homogeneous(kPlain, 1e-161)), true},
     {"squares that overflow", withProjection(homogeneous(kPlain, 1e160)), true},
     {"looking at itself", withView([](Random&) {
          return osg::Matrixd::lookAt(osg::Vec3d(9e6, 0, 0), osg::Vec3d(9e6, 0, 0), osg::Vec3d(0, 0, 1));
      })},
-    {"looking up",
-     withView([](Random&) { return osg::Matrixd::lookAt(osg::Vec3d(9e6, 0, 0), osg::Vec3d(), osg::Vec3d(1, 0, 0)); })},
     {"flat view",
      [](const CameraGlobe& globe, Random& random) {
          // of rank two, though rounding gives it some inverse
          const osg::Matrixd turn = turned(random);
          const osg::Matrixd flat = turn * osg::Matrixd::scale(1.0, 1.0, 0.0) * osg::Matrixd::inverse(turn);
          return viewOf(flat * viewAtSample(globe, random), kPlain);
-     }},
-    {"view of rank one",
-     [](const CameraGlobe& globe, Random& random) {
-         const osg::Matrixd turn = turned(random);
-         return viewOf(turn * osg::Matrixd::scale(0.0, 1.0, 0.0) * viewAtSample(globe, random), kPlain);
      }},
     {"projective view",
      [](const CameraGlobe& globe, Random& random) {
@@ -408,18 +356,6 @@ TEST(DegenerateCameras, InDoubtKeepWhatMayBeInThePictureAndHideNothing) {
                 }
             }
         }
-    }
-}
-
-// Squares of their normals are subnormal, so that OSG gets their length wrong by up to a tenth.
-TEST(DegenerateCameras, PlanesWithoutUnitLengthDecideNothing) {
-    CameraGlobe globe;
-    Random random(94);
-    LookTotals totals;
-    for (int i = 0; i < 500; ++i) {
-        const double scale = random.logUniform(1e-162, 1e-160);
-        const osg::Matrixd small = viewAtSample(globe, random) * osg::Matrixd::scale(scale, scale, scale);
-        EXPECT_TRUE(totals.add(globe, lookOf(globe, viewOf(small, kPlain))).empty()) << "view " << i;
     }
 }
 

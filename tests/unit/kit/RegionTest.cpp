@@ -12,48 +12,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-// 40 x 40 degrees of tiles, without any other terrain. From a place the horizon is some 5.6 degrees away at an altitude
-// of 30 km.
-struct WideRegion : MeshGlobe {
-    WideRegion() {
-        root->removeChildren(0, root->getNumChildren());
-        tiles.clear();
-        for (int column = 0; column < 8; ++column) addColumn(column);
-    }
-
-    void addColumn(int column) {
-        const double west = 5.0 * column;
-        for (double south = 10.0; south < 50.0; south += 5.0) {
-            tiles.push_back(makePaged(makeMeshTile(extentsDeg(south, south + 5.0, west, west + 5.0), 0.0), "no.osgb"));
-            root->addChild(tiles.back());
-        }
-    }
-
-    // Whether the tile in the north-east is drawn in a view that it is in.
-    [[nodiscard]] bool drawsFarTile(double latitude, double longitude) {
-        return draws(*tiles[63], CullView::lookAt(ecefDeg(latitude, longitude, 30000.0), ecefDeg(47.5, 37.5, 0.0),
-                                                  ecefDeg(latitude, longitude, 0.0), 60.0));
-    }
-};
-
-TEST(RegionalHorizon, IsNotUsedByAnEyeBesideTheRegion) {
-    WideRegion region;
-    installBins(*region.root);
-    const CapturedNotes notes(osg::NOTICE);
-    for (const auto& [latitude, longitude] : {std::pair(30.0, -3.0), {5.0, 20.0}, {51.0, 20.0}, {30.0, 41.0}})
-        EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
-    EXPECT_EQ(notes.count("not over the regional database"), 1u);
-}
-
-TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {
-    WideRegion region;
-    installBins(*region.root);
-    EXPECT_TRUE(region.drawsFarTile(30.0, 41.0));
-    for (const int column : {8, 9}) region.addColumn(column);
-    installBins(*region.root);
-    EXPECT_FALSE(region.drawsFarTile(30.0, 41.0));
-}
-
 // What a set draws stands before the terrain, if anything.
 TEST(ForeignHorizon, IsUsedBesideAPhotogrammetrySet) {
     for (const bool isMoved : {false, true}) {
@@ -115,28 +73,15 @@ TEST(Border, TilesHoldTheirSkirtsWhole) {
     }
 }
 
-TEST(Border, ASkirtInPlainViewIsNotCulled) {
-    const Pair pair(extentsDeg(0, 40, 0, 40), extentsDeg(14, 16, 0, 2));
-    ReachedTiles reached;
-    reached.watch(*pair.tile, "tile");
-    installBins(*pair.terrain, optionsOf("heights=0..100"));
-    const osg::Vec3d eye = ecefDeg(15, -3, 2000);
-    EXPECT_EQ(reached.in(*pair.terrain, eye, ecefDeg(15, 0, -25000), 0.5).count("tile"), 1u);
-    EXPECT_EQ(reached.in(*pair.terrain, eye, ecefDeg(15, 0, -60000), 0.5).count("tile"), 0u);
-}
-
-TEST(Border, RunsAlongEachSideAndIsInherited) {
-    const auto root = extentsDeg(-20, 20, 160, 200);
+// OSG gives longitudes beyond the date line as they are, and other builders from the other side.
+TEST(Border, RunsAlongEachSideAndIsInheritedButNeitherAtAPoleNorAroundTheGlobe) {
+    const auto root = extentsDeg(-20, 20, 160, 200), globe = extentsDeg(-90, 90, -180, 180),
+               north = extentsDeg(30, 90, -180, 180);
     EXPECT_EQ(skirtOf({root, extentsDeg(-20, -10, 170, 180)}), kSkirt);
     EXPECT_EQ(skirtOf({root, extentsDeg(10, 20, 170, 180)}), kSkirt);
     EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, 160, 170)}), kSkirt);
-    // OSG gives longitudes beyond the date line as they are, and other builders from the other side
     EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, -170, -160)}), kSkirt);
     EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, 170, 180)}), 0.0);
-}
-
-TEST(Border, IsNeitherAtAPoleNorWhereATileRunsAroundTheGlobe) {
-    const auto globe = extentsDeg(-90, 90, -180, 180), north = extentsDeg(30, 90, -180, 180);
     EXPECT_EQ(skirtOf({globe, extentsDeg(-90, 0, -180, -90)}), 0.0);
     EXPECT_EQ(skirtOf({globe, extentsDeg(0, 90, 90, 180)}), 0.0);
     EXPECT_EQ(skirtOf({north, extentsDeg(60, 90, -180, -90)}), 0.0);

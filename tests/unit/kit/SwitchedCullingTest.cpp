@@ -16,22 +16,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-std::set<const osg::Node*> inactiveNodes(osg::Node& scene) {
-    std::set<const osg::Node*> nodes;
-    visitNodes(scene, [&](osg::Node& node) {
-        if (!node.getCullingActive()) nodes.insert(&node);
-    });
-    return nodes;
-}
-
-unsigned int valuesIn(osg::Node& scene) {
-    unsigned int values = 0;
-    visitNodes(scene, [&](osg::Node& node) {
-        if (node.getUserDataContainer()) values += node.getUserDataContainer()->getNumUserObjects();
-    });
-    return values;
-}
-
 class SwitchedCulling : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -144,22 +128,6 @@ TEST_F(SwitchedCulling, IsNotComparedByAMalformedVariable) {
     }
     EXPECT_EQ(notices.count("a view with bins"), 0u);
     EXPECT_EQ(notices.count("not a number of seconds"), 1u);
-}
-
-TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
-    osg::Node& own = *scene->asGroup()->getChild(3)->asGroup()->getChild(0);
-    own.setCullingActive(false);  // by the database itself
-    const unsigned int values = valuesIn(*scene);
-    installBins(*scene, by(Method::None));
-    for (const Method method : {Method::None, Method::Quadratic, Method::None, Method::Sphere}) {
-        EXPECT_EQ(inactiveNodes(*scene), std::set<const osg::Node*>{&own});
-        setCullOptions(*scene, by(method));
-    }
-    EXPECT_EQ(inactiveNodes(*scene), std::set<const osg::Node*>{&own});
-    EXPECT_EQ(valuesIn(*scene), values);
-    removeBins(*scene);
-    EXPECT_EQ(scene->getCullCallback(), nullptr);
 }
 
 namespace fs = std::filesystem;

@@ -156,48 +156,22 @@ private:
 
 const core::GeodeticBin kExtents = extentsDeg(10, 12, 20, 22);
 
-/// What is asked of a mesh in a scene of a strange shape: seen from above with every method, and culled with bins where
-/// the camera looks at it no more.
-class WatchedMesh {
-public:
-    WatchedMesh() : mesh(makeMeshTile(kExtents, 100.0)) { _reached.watch(*mesh, "mesh"); }
-
-    /// Returns: how many tiles have bins at last.
-    std::size_t installOften(osg::Node& scene) {
-        for (const Method method : {Method::Quadratic, Method::None, Method::Sphere}) {
-            (void)installBins(scene, by(method));
-            EXPECT_TRUE(isReached(scene, 21.0)) << static_cast<int>(method);
-        }
-        const std::size_t bins = installBins(scene);
-        update(scene);
-        EXPECT_TRUE(isReached(scene, 21.0));
-        EXPECT_FALSE(isReached(scene, 60.0));
-        return bins;
-    }
-
-    const osg::ref_ptr<osg::Node> mesh;
-
-private:
-    bool isReached(osg::Node& scene, double longitudeDeg) {
-        return _reached.in(scene, ecefDeg(11, longitudeDeg, 1e5), ecefDeg(11, longitudeDeg, 0), 60.0).count("mesh") > 0;
-    }
-
-    ReachedTiles _reached;
-};
-
 // Above a tile, and below one.
 TEST(HugeScenes, TransformsMayBeDeep) {
-    WatchedMesh watched;
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(watched.mesh, "none.osgb");
-    Chain chain([](int) { return new osg::MatrixTransform; }, tile);
-    WatchedMesh below;
-    Chain chainBelow([](int) { return new osg::MatrixTransform; }, below.mesh);
-    const osg::ref_ptr<osg::PagedLOD> above = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb"),
+                                      above = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
+    const auto makeTransform = [](int) { return new osg::MatrixTransform; };
+    Chain chain(makeTransform, tile), chainBelow(makeTransform, makeMeshTile(kExtents, 100.0));
     putBelow(*above, chainBelow.root->getChild(0));
     chain.root->addChild(above);
-    EXPECT_EQ(watched.installOften(*chain.root), 3u);
-    EXPECT_EQ(below.installOften(*chain.root), 3u);
+    for (const Method method : {Method::None, Method::Sphere, Method::Quadratic}) {
+        (void)installBins(*chain.root, by(method));
+        update(*chain.root);
+        EXPECT_FALSE(cull(*chain.root, downTo(11.0, 21.0)).drawn.empty());
+    }
+    EXPECT_EQ(installBins(*chain.root), 3u);
     EXPECT_TRUE(installedOn(*tile) && installedOn(*above) && installedOn(*chainBelow.root->getChild(0)));
+    EXPECT_TRUE(cull(*chain.root, downTo(11.0, 60.0)).drawn.empty());
 }
 
 TEST(HugeScenes, TilesMayBeDeep) {
