@@ -77,12 +77,25 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     add("culled", new AnalyticBinCullCallback(bin, wgs84));
     add("invalid bin", new AnalyticBinCullCallback(AnalyticBin(), wgs84));
     add("no culling", new AnalyticBinCullCallback(bin, wgs84, by(Method::None)));
-    auto* const singular = new AnalyticBinCullCallback(bin, wgs84);
-    singular->setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
-    add("singular frame", singular);
+    // rounding gives the flat one some inverse
+    const osg::Matrixd turn = osg::Matrixd::rotate(0.7, 1, 2, 3);
+    osg::Matrixd projective, unknown;
+    projective(0, 3) = 1e-7;
+    unknown(3, 1) = std::nan("");
+    const std::pair<const char*, osg::Matrixd> frames[] = {
+        {"singular frame", osg::Matrixd::scale(0, 1, 1)},
+        {"flat frame", turn * osg::Matrixd::scale(1, 1, 0) * osg::Matrixd::inverse(turn)},
+        {"projective frame", projective},
+        {"unknown frame", unknown}};
+    for (const auto& [name, frame] : frames) {
+        auto* const callback = new AnalyticBinCullCallback(bin, wgs84);
+        callback->setLocalToEcef(frame);
+        add(name, callback);
+    }
     add("no radius", new AnalyticBinCullCallback(bin, osg::EllipsoidModel(std::nan(""), 6.4e6)));
     (void)cull(*root, away);
-    EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
+    EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame", "flat frame",
+                                              "projective frame", "unknown frame"}));
 }
 
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {

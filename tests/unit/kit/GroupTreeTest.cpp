@@ -65,12 +65,6 @@ TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
     }
 }
 
-TEST(GroupTree, DoubtsAGroupWithoutItsWatch) {
-    GroupTree tree;
-    removeBins(*tree.groups[1]);
-    EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
-}
-
 class InstalledTiles : public ::testing::Test {
 protected:
     InstalledTiles() {

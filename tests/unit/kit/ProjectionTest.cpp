@@ -382,25 +382,5 @@ TEST(DegenerateCameras, OfZerosOrOfNoNumbersCullNothingByAnyMethod) {
     }
 }
 
-// A frame that squeezes the globe flat tells nothing of where a plane is on it.
-TEST(DegenerateCameras, AFrameWithoutAnInverseMeansVisible) {
-    Random random(93);
-    for (int i = 0; i < 50; ++i) {
-        const osg::Matrixd turn = turned(random);
-        const osg::Matrixd flat = turn * osg::Matrixd::scale(1.0, 1.0, 0.0) * osg::Matrixd::inverse(turn);
-        osg::Matrixd projective;
-        projective(0, 3) = 1e-7;
-        osg::Matrixd unknown;
-        unknown(3, 1) = kNaN;
-        for (const osg::Matrixd& matrix : {flat, projective, unknown}) {
-            const CapturedNotes notes;
-            const osg::ref_ptr<AnalyticBinCullCallback> callback =
-                new AnalyticBinCullCallback(startTiles().front(), osg::EllipsoidModel());
-            callback->setLocalToEcef(matrix);
-            EXPECT_FALSE(callback->getBin().valid());
-        }
-    }
-}
-
 }  // namespace
 }  // namespace osgAnalyticBin::test
