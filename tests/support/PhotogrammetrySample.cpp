@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kTilesPerSide = 3;
 constexpr double kTileMetres = 200.0;
 // Levels of detail of a tile. The finest are below a chain of single children, then four children each.
-constexpr int kLevels = 4;
+constexpr int kLevelsOfSet = 4;
 constexpr int kChain = 2;  // levels with a single child
 constexpr unsigned int kCells = 12;
 constexpr double kTower = 90.0;  // metres above the ground
@@ -76,7 +76,7 @@ private:
         return _tile + "_L" + std::to_string(part.level) + "_" + std::to_string(part.number) + ".osgb";
     }
 
-    [[nodiscard]] bool isLast(const Part& part) const { return part.level + 1 >= kLevels; }
+    [[nodiscard]] bool isLast(const Part& part) const { return part.level + 1 >= kLevelsOfSet; }
 
     // The parts that are in one file with this one: itself and its siblings.
     [[nodiscard]] static std::vector<Part> partsOfFile(const Part& first) {
@@ -122,7 +122,7 @@ private:
 
     // About the vertices of all levels, which are among those of the finest. A false sphere holds those in its middle.
     [[nodiscard]] osg::BoundingSphere sphereOf(const Part& part) const {
-        const int steps = int(2 * kCells) << std::max(0, kLevels - 1 - std::max(part.level, kChain));
+        const int steps = int(2 * kCells) << std::max(0, kLevelsOfSet - 1 - std::max(part.level, kChain));
         const int all = part.level < kChain ? 2 * steps : steps;
         osg::BoundingBox box;
         for (int row = 0; row <= all; ++row) {
