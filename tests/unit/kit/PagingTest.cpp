@@ -239,6 +239,33 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
     }
 }
 
+// With a sphere that does not hold what was loaded there.
+TEST(PagedSets, AskForNothingOutOfViewWhenAllIsPagedOut) {
+    const osg::ref_ptr<osg::Group> set = new osg::Group;
+    markPhotogrammetrySet(*set);
+    const osg::ref_ptr<osg::PagedLOD> tile = new osg::PagedLOD;
+    tile->setCenter(osg::Vec3());
+    tile->setRadius(1.0f);
+    tile->setFileName(0, "gone.osgb");
+    tile->setRange(0, 0.0f, 1e10f);
+    set->addChild(tile);
+    EXPECT_EQ(installBins(*set), 1u);
+    tile->addChild(makeTower(osg::Vec3d(0.0, 0.0, 300.0)));
+    (void)set->getBound();
+    EXPECT_FALSE(tile->getCullingActive());
+    tile->osg::Group::removeChildren(0, 1);  // as the pager does it
+    MeshGlobe camera;
+    const osg::ref_ptr<Requests> requests = new Requests;
+    camera.visitor->setDatabaseRequestHandler(requests);
+    const auto asked = [&](double y) {
+        requests->files.clear();
+        (void)cull(*set, CullView::lookAt({0, -500, 0}, {0, y, 0}, {0, 0, 1}, 40.0), *camera.visitor);
+        return requests->files.size();
+    };
+    EXPECT_EQ(asked(0.0), 1u);
+    EXPECT_EQ(asked(-1000.0), 0u);
+}
+
 class ObjectCache : public ::testing::Test {
 protected:
     void SetUp() override {

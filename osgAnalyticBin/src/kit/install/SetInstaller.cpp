@@ -65,7 +65,8 @@ public:
         const auto isCulled = [node](osg::CullStack& cullStack) {
             const osg::BoundingSphere& sphere = node->getBound();
             const LodWatch* const watch = LodWatch::of(*node);
-            return watch && !watch->isKept(*node) && cullStack.isCulled(sphere) && cullStack.isCulled(watch->loaded());
+            if (!watch || watch->isKept(*node) || !cullStack.isCulled(sphere)) return false;
+            return !watch->loaded().valid() || cullStack.isCulled(watch->loaded());
         };
         cullOrTraverse(*nv, isCulled, [&] { traverse(node, nv); });
     }
