@@ -3,6 +3,8 @@
 
 #include "FileSurvey.h"
 
+#include "../kit/surface/SurfaceWalk.h"
+
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
@@ -64,7 +66,7 @@ public:
     void apply(osg::Node& node) override {
         if (_tiles.count(&node) > 0) return;
         const bool isTerrain = dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
-        isFound = isFound || node.asDrawable() || isTerrain;
+        isFound = isFound || isTerrain || drawsByItself(node);
         if (!isTerrain) traverse(node);
     }
     void apply(osg::PagedLOD& node) override {

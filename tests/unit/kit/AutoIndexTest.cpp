@@ -5,6 +5,8 @@
 
 #include "KitTest.h"
 
+#include <osgDB/ObjectWrapper>
+
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -111,6 +113,23 @@ TEST_F(AutoIndex, TilesAboveOneWithoutBoundsKeepTheDeclaredHeights) {
         EXPECT_FALSE(isRootWhole()) << i;
         EXPECT_FALSE(isIndexAwaited(*_scene));
     }
+}
+
+// Neither have those above nodes that draw without drawables, beside the tiles of a file.
+TEST_F(AutoIndex, TilesAboveLightsKeepTheDeclaredHeights) {
+    const std::string file = _folder.path() + "/children.osgb";
+    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
+    osgDB::ObjectWrapper* const kind =
+        osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper("osgSim::LightPointNode");
+    ASSERT_TRUE(kind);
+    const osg::ref_ptr<osg::Node> mast = dynamic_cast<osg::Node*>(kind->createInstance());
+    ASSERT_TRUE(mast);
+    mast->setInitialBound(osg::BoundingSphere(ecefDeg(40, 20, 5000), 10.0f));
+    children->addChild(mast);
+    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_FALSE(isRootWhole());
 }
 
 // A user has made that one with osgbinconv, and has not made it again since the database changed.

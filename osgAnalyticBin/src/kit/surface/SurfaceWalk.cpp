@@ -7,6 +7,7 @@
 #include "../Inverse.h"
 
 #include <osg/Billboard>
+#include <osg/CoordinateSystemNode>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
@@ -14,6 +15,7 @@
 #include <osg/ProxyNode>
 #include <osg/Sequence>
 #include <osg/Switch>
+#include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
 
 namespace osgAnalyticBin {
@@ -26,15 +28,19 @@ bool hasFixedPlace(const osg::Transform& node) {
 
 bool drawsBesideChildren(const osg::Node& node) {
     const osg::Group* const group = node.asGroup();
-    const bool isKnown =
-        !group || node.asTransform() ||
-        isOneOf<osg::Group, osg::Geode, osg::PagedLOD, osg::LOD, osg::Switch, osg::Sequence, osg::Billboard>(node);
+    const bool isKnown = !group || node.asTransform() ||
+                         isOneOf<osg::Group, osg::Geode, osg::PagedLOD, osg::LOD, osg::Switch, osg::Sequence,
+                                 osg::Billboard, osg::CoordinateSystemNode, osgTerrain::Terrain>(node);
     // these classes compute bounds of their own
     if (isKnown || dynamic_cast<const osg::LOD*>(&node) || dynamic_cast<const osg::ProxyNode*>(&node) ||
         dynamic_cast<const osgTerrain::TerrainTile*>(&node))
         return false;
     const osg::BoundingSphere own = node.getBound(), below = group->osg::Group::computeBound();
     return own.valid() && !(own == below);
+}
+
+bool drawsByItself(const osg::Node& node) {
+    return node.asGroup() ? drawsBesideChildren(node) : !isExactly<osg::Node>(node);
 }
 
 SurfaceWalk::SurfaceWalk(const osg::Matrixd& localToEcef)
@@ -46,8 +52,7 @@ void SurfaceWalk::apply(osg::Node& node) {
     if (!_isKnown) return;
     // Traversed before it has its Terrain, a tile never finds it afterwards; children it does not draw.
     if (auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) return visit(*tile);
-    if (!node.asGroup() && !isExactly<osg::Node>(node)) return visitUnknown(node);
-    if (drawsBesideChildren(node)) visitUnknown(node);
+    if (drawsByItself(node)) visitUnknown(node);
     traverse(node);
 }
 

@@ -17,6 +17,10 @@ namespace osgAnalyticBin {
 /// as osgVolume::VolumeTile does.
 [[nodiscard]] bool drawsBesideChildren(const osg::Node& node);
 
+/// Whether a node may draw something that its children do not: such a group, or a node without children, as drawables
+/// and osgSim::LightPointNode are.
+[[nodiscard]] bool drawsByItself(const osg::Node& node);
+
 /// Visits what one tile draws: terrain tiles, which are not traversed, and drawables, with the frame in which they
 /// stand. Masks, ranges and switches are passed over.
 class SurfaceWalk : public osg::NodeVisitor {
