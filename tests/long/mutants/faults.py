@@ -281,6 +281,8 @@ FAULTS = [
           "_index = whole;\n    beginGeneration();", "_index = whole;", NODE, "AutoIndex.*"),
     Fault("index: nothing but drawables draws", "src/index/FileSurvey.cpp", "isTerrain || drawsByItself(node)",
           "isTerrain || node.asDrawable()", NODE, "AutoIndex.*"),
+    Fault("index: made where the options alone name the globe", "src/kit/install/InstallBins.cpp", "index && hasGlobe &&",
+          "index && (hasGlobe || true) &&", NODE, "AutoIndex.*"),
     Fault("damaged indexes are read", "src/index/IndexFile.cpp",
           "if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};", "(void)in.number<std::uint32_t>();", NODE,
           "BinIndex*"),

@@ -132,6 +132,16 @@ TEST_F(AutoIndex, TilesAboveLightsKeepTheDeclaredHeights) {
     EXPECT_FALSE(isRootWhole());
 }
 
+// Such files do not say where their tiles stand: all would be read, each time, for nothing.
+TEST_F(AutoIndex, IsNotMadeWhereTheOptionsAloneNameTheGlobe) {
+    const osg::ref_ptr<osg::Group> scene = osgDB::readRefFile<osg::Group>(_file);
+    const std::string file = _folder.path() + "/bare.osgb";
+    ASSERT_TRUE(osgDB::writeNodeFile(*makeGroup({scene->getChild(0)}), file));
+    _scene = osgDB::readRefNodeFile(file);
+    EXPECT_EQ(installBins(*_scene, optionsOf("globe=wgs84"), file), 1u);
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+}
+
 // A user has made that one with osgbinconv, and has not made it again since the database changed.
 TEST_F(AutoIndex, IsUsedTheNextTimeWhereOneBesideTheDatabaseIsOutOfDate) {
     open();

@@ -101,8 +101,10 @@ bool isReadByApplication(osg::Node& node, const osgDB::Options* options) {
 // Starts to make an index, if tiles want one.
 void makeIndex(osg::Node& node, TileBoundsSource* index) {
     bool isWanted = false;
-    forEachDatabase(node, [&](osg::Node&, Database& database) {
-        const bool isWantedHere = index && database.has(Finding::IndexWanted);
+    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+        // files do not tell of a globe that the options name
+        const bool hasGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&at);
+        const bool isWantedHere = index && hasGlobe && database.has(Finding::IndexWanted);
         database.setMaking(isWantedHere ? index : nullptr);
         isWanted = isWanted || isWantedHere;
     });
