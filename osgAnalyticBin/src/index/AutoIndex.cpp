@@ -161,6 +161,14 @@ public:
         const std::lock_guard<std::mutex> guard(_mutex);
         return _whole;
     }
+    [[nodiscard]] bool hasEnded() const override {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        return _hasEnded;
+    }
+    [[nodiscard]] bool hasNews() const override {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        return _whole.valid() || !_notes.empty();
+    }
     bool waitUntilWhole(std::chrono::duration<double> most) const override {
         std::unique_lock<std::mutex> guard(_mutex);
         _changed.wait_for(guard, most, [this] { return _hasEnded; });

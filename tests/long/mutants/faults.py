@@ -283,6 +283,8 @@ FAULTS = [
           "isTerrain || node.asDrawable()", NODE, "AutoIndex.*"),
     Fault("index: made where the options alone name the globe", "src/kit/install/InstallBins.cpp", "index && hasGlobe &&",
           "index && (hasGlobe || true) &&", NODE, "AutoIndex.*"),
+    Fault("index: nobody says why there is none", "src/kit/database/Database.cpp", "making->hasNews();",
+          "making->whole();", NODE, "AutoIndex.*"),
     Fault("damaged indexes are read", "src/index/IndexFile.cpp",
           "if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};", "(void)in.number<std::uint32_t>();", NODE,
           "BinIndex*"),

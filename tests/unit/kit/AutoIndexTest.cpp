@@ -7,6 +7,8 @@
 
 #include <osgDB/ObjectWrapper>
 
+#include <thread>
+
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -140,6 +142,30 @@ TEST_F(AutoIndex, IsNotMadeWhereTheOptionsAloneNameTheGlobe) {
     _scene = osgDB::readRefNodeFile(file);
     EXPECT_EQ(installBins(*_scene, optionsOf("globe=wgs84"), file), 1u);
     EXPECT_FALSE(isIndexAwaited(*_scene));
+}
+
+TEST_F(AutoIndex, SaysWhyItCannotBeMadeThoughNothingElseHappens) {
+    const std::string file = _folder.path() + "/children.osgb";
+    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
+    children->addChild(makePaged(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0), "children.osgb"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
+    const CapturedNotes notes(osg::NOTICE);
+    open();
+    const auto draw = [this] {
+        for (int i = 0; i < 4; ++i) {
+            (void)cull(*_scene, downTo(30, 20));
+            update(*_scene);
+        }
+    };
+    draw();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+    draw();
+    EXPECT_EQ(notes.count("is paged below itself"), 1u);
+    EXPECT_FALSE(_scene->getUpdateCallback());
+    EXPECT_FALSE(waitForIndex(*_scene, kSeconds));
 }
 
 // A user has made that one with osgbinconv, and has not made it again since the database changed.

@@ -149,7 +149,7 @@ bool Database::needsUpdate(const TerrainShape& present) {
         if (isUpdateWanted() || !(present == _fittedShape)) return true;
         if (!_index) making = _making;
     }
-    return making && making->whole();
+    return making && making->hasNews();
 }
 
 TerrainShape Database::shape(const CullOptions& options) const {

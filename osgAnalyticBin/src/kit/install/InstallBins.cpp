@@ -154,7 +154,7 @@ bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
     forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
         const osg::ref_ptr<TileBoundsSource> index = database.making();
-        isAwaited = isAwaited || (index && !index->whole());
+        isAwaited = isAwaited || (index && !index->hasEnded());
     });
     return isAwaited;
 }

@@ -27,6 +27,10 @@ public:
 
     /// Returns: null until the bins are complete.
     [[nodiscard]] virtual osg::ref_ptr<const BinIndex> whole() const = 0;
+    /// Whether they are complete, or cannot be found.
+    [[nodiscard]] virtual bool hasEnded() const = 0;
+    /// Whether there are complete bins, or messages that were not printed.
+    [[nodiscard]] virtual bool hasNews() const = 0;
     /// Waits until they are complete or cannot be found. Returns: whether they are complete.
     virtual bool waitUntilWhole(std::chrono::duration<double> most) const = 0;
 
