@@ -152,6 +152,27 @@ TEST(VerticalScale, ATileOfAnotherShapeIsCulledByItsSphereAloneUntilItIsFitted) 
     EXPECT_EQ(hills.bin(18).getTerrainShape()->verticalScale, 5.0);
 }
 
+// Also while OSG's sphere is out of view, which does not know of the scale.
+TEST(VerticalScale, CountsForATileThatWasOnItsWayWhenItChanged) {
+    Hills hills;
+    installBins(*hills.terrain);
+    hills.update();
+    Random random(52);
+    const auto tile = makeHilly(extentsDeg(43.0, 43.5, 10.0, 10.5), random);
+    EXPECT_EQ(addTile(*hills.terrain, *tile), 1u);
+    hills.terrain->setVerticalScale(5.0f);
+    for (int i = 0; i < 2; ++i) hills.update();
+    EXPECT_EQ(hills.bin(0).getTerrainShape()->verticalScale, 5.0);
+    hills.terrain->addChild(tile);
+    const osg::Vec3d eye = ecefDeg(40.25, 10.25, 3e5), below = ecefDeg(40.25, 10.25, 0);
+    for (int i = 0; i < 2; ++i) {
+        (void)hills.reached.in(*hills.terrain, eye, below, 1.0);
+        osgUtil::UpdateVisitor visitor;
+        hills.terrain->accept(visitor);
+    }
+    EXPECT_EQ(installedOn(*tile)->getTerrainShape()->verticalScale, 5.0);
+}
+
 // Their scale, sample ratio, blending and technique are those of the Terrain that the application has set.
 TEST(OtherTerrain, ItsTilesHaveNoBins) {
     Hills hills;

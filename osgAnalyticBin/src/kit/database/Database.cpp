@@ -178,6 +178,7 @@ bool Database::takeShapeChange() {
     const std::lock_guard<std::mutex> lock(_mutex);
     const bool hasChanged = !(present == _fittedShape);
     _fittedShape = present;
+    if (hasChanged) beginGeneration();
     return takeRefit() || hasChanged;
 }
 

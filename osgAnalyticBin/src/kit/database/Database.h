@@ -79,13 +79,13 @@ public:
     /// Whether the horizon culls in place of osg::ClusterCullingCallbacks. A map has none. For cull traversals.
     [[nodiscard]] bool replacesClusters() const;
 
-    /// How often setOptions() was called or an index was adopted.
+    /// How often setOptions() was called, an index was adopted, or the shape of the terrain has changed.
     [[nodiscard]] unsigned int generation() const;
 
     /// Call when bins are removed: files that are read from now on get none.
     void setRemoved();
 
-    /// Records content that is not merged into the scene yet, with bins by the options and the index of `generation`.
+    /// Records content that is not merged into the scene yet, with bins by what held in `generation`.
     /// `isAdded`: it brings tiles to a place where none were expected, because the application attaches it, or the
     /// PagedLOD that pages it is no tile. The next update after it is attached adds the tiles to the families of the
     /// groups there.
