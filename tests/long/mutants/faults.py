@@ -277,6 +277,8 @@ FAULTS = [
           " && paged->getMinimumExpiryTime(i) == replaced)", ")", NODE, "PagingExpiry*"),
     Fault("heights that are not valid leave no holes", "src/kit/surface/TerrainTileSurface.cpp",
           "if (!layer->getValidValue(column, row, height)) return std::nullopt;", "(void)layer->getValidValue(column, row, height);", SCENES, NAMED),
+    Fault("files count for a tile as it was when they were asked for", "src/kit/install/BinInstaller.cpp",
+          "before->setSuccessor(*installed);", "(void)before;", NODE, "PagedLate.*"),
     Fault("what was on its way keeps the shape of before", "src/kit/database/Database.cpp",
           "if (hasChanged) beginGeneration();", "", NODE, "VerticalScale.*"),
     Fault("what was on its way takes no bins from an index", "src/kit/database/Database.cpp",

@@ -239,6 +239,26 @@ TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRu
     }
 }
 
+// A file that was asked for before the tile above was fitted anew, and is read after. It counts for the tile as it is,
+// and has no more tiles fitted anew: that would go on for as long as files are awaited.
+TEST(PagedLate, FilesCountForTheTileThatWasFittedAnewMeanwhile) {
+    const TemporaryFolder folder;
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(writeMeshDatabase(folder.path(), 12000.0, 900.0));
+    auto& paged = dynamic_cast<osg::PagedLOD&>(*scene->asGroup()->getChild(0));
+    installBins(*scene);
+    const osg::ref_ptr<osgDB::Options> queued = readOptionsOf(paged);
+    const auto before = installedOn(paged)->getInstalledTile();
+    setCullOptions(*scene, {});
+    const osg::ref_ptr<AnalyticBinCullCallback> fitted = installedOn(paged);
+    ASSERT_NE(fitted->getInstalledTile(), before);
+    const osg::ref_ptr<osg::Node> children =
+        osgDB::readRefNodeFile(paged.getDatabasePath() + paged.getFileName(1), queued);
+    ASSERT_TRUE(children);
+    update(*scene);
+    EXPECT_EQ(installedOn(paged), fitted);
+    EXPECT_GE(fitted->getBin().bin().altitude().upper, 11999.0);
+}
+
 // With a sphere that does not hold what was loaded there.
 TEST(PagedSets, AskForNothingOutOfViewWhenAllIsPagedOut) {
     const osg::ref_ptr<osg::Group> set = new osg::Group;

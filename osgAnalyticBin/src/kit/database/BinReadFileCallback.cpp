@@ -144,8 +144,9 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
         root->asGroup()->addChild(node);
     }
     const Expected& known = expected(fileName, options);
-    const bool hasTiles = _database->install(*root, known.frame, known.parent.get()) > 0;
-    isAdded = hasTiles && !(known.parent && known.parent->ordinal);
+    const osg::ref_ptr<InstalledTile> parent = known.parent ? known.parent->latest() : nullptr;
+    const bool hasTiles = _database->install(*root, known.frame, parent.get()) > 0;
+    isAdded = hasTiles && !(parent && parent->ordinal);
     return ReadResult(root.get(), result.status());
 }
 

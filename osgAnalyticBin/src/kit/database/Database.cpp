@@ -196,7 +196,7 @@ void Database::report(InstalledTile& tile, Finding finding, const AnalyticBin& d
     while (outermost->parent) outermost = outermost->parent.get();
     of(*outermost).report(finding, tile.file);
     const Widening by{drawn, finding == Finding::Unverifiable};
-    for (InstalledTile* at = &tile; at; at = at->parent.get()) {
+    for (osg::ref_ptr<InstalledTile> at(&tile); at; at = at->above()) {
         if (!at->ordinal) continue;
         of(*at).correct(*at, by);
         if (at != &tile) of(*at).widen(*at, by);
@@ -310,16 +310,17 @@ void Database::widenLoaded() {
     }
     for (const auto& observed : toWiden) {
         osg::ref_ptr<InstalledTile> tile;
-        const osg::ref_ptr<osg::NodeCallback> callback = observed.lock(tile) ? tile->callback() : nullptr;
+        const osg::ref_ptr<InstalledTile> latest = observed.lock(tile) ? tile->latest() : nullptr;
+        const osg::ref_ptr<osg::NodeCallback> callback = latest ? latest->callback() : nullptr;
         if (!callback) {
-            // paged out, or fitted anew while the tile was on its way
+            // paged out, or the application has replaced its callbacks
             requestRefit();
             continue;
         }
         auto& bin = static_cast<AnalyticBinCullCallback&>(*callback);
         const std::lock_guard<std::mutex> lock(_mutex);
         bin.setBin(tile->widening->widened(bin.getBin()));
-        tile->settle(InstalledTile::Outgrown);
+        if (latest == tile) tile->settle(InstalledTile::Outgrown);
     }
 }
 

@@ -198,11 +198,12 @@ public:
 protected:
     void visitTile(FoundTile& tile) override {
         const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
+        const osg::ref_ptr<InstalledTile> before = recordOf(*tile.node);
         // the new bin is where the tile stands now; there is a gap where it stood
-        if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
+        if (before && before->has(InstalledTile::MeshMoved)) database().report(Finding::MovedTile, tile.frame.file);
         removeCallbacks(tile, _nested);
         takeOffFirst<NoCulling>(*tile.node);
-        if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent);
+        if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent, before.get());
         visitWithoutBin(*tile.node, true);
     }
 
@@ -403,7 +404,8 @@ private:
         _lods += installOnSet(set, _options);
     }
 
-    void install(FoundTile& tile, bool hasNewContent) {
+    // `before`: the tile's record until now; null: none.
+    void install(FoundTile& tile, bool hasNewContent, InstalledTile* before) {
         const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
         const TerrainShape shape = database().fittedShape();
         const FitSources sources{database().options(),
@@ -436,6 +438,7 @@ private:
         noteGround(tile, {tile.meshes, ellipsoid, tile.frame.localToEcef, shape}, withPlates,
                    coverWithoutMesh(sources, fit), *installed);
         noteCovered(tile, fit, *installed);
+        if (before && &before->database() == _database) before->setSuccessor(*installed);
         visitChildren(tile, *installed);
     }
 

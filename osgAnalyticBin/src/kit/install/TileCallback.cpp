@@ -108,11 +108,12 @@ bool isOfOtherTerrain(const FoundTile& tile, const Database& database) {
     return is;
 }
 
-bool hasMoved(osg::Node& tile) {
-    const Carrier* const carrier = carrierOf(tile);
-    const InstalledTile* const own = installedTileOf(tile);
-    const InstalledTile* const installed = own || !carrier ? own : installedTileOf(*carrier);
-    return installed && installed->has(InstalledTile::MeshMoved);
+InstalledTile* recordOf(osg::Node& tile) {
+    for (const osg::Node* const at : {&tile, static_cast<osg::Node*>(carrierOf(tile))}) {
+        InstalledTile* const record = at ? installedTileOf(*at) : nullptr;
+        if (record && record->isFor(at)) return record;
+    }
+    return nullptr;
 }
 
 // OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:

@@ -27,8 +27,8 @@ class InstalledTile;
 /// Whether OSG draws something of a tile as another Terrain says than the one that the database follows.
 [[nodiscard]] bool isOfOtherTerrain(const FoundTile& tile, const Database& database);
 
-/// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
-[[nodiscard]] bool hasMoved(osg::Node& tile);
+/// The record of a tile that has a bin. Returns: nullptr when it has none, or shares that of the tile it is a clone of.
+[[nodiscard]] InstalledTile* recordOf(osg::Node& tile);
 
 /// The node that is culled for a tile: its own, or a group above it, which is put there where the tile has just been
 /// read (`isNew`) and is not in the scene.

@@ -10,7 +10,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Guards what tiles know of their families: some are doubted while others are settled, or while families are made.
+// Guards successors, and what tiles know of their families: some are doubted while others are settled, or while
+// families are made.
 [[nodiscard]] std::unique_lock<std::mutex> lockFamilies() {
     static std::mutex mutex;
     return std::unique_lock<std::mutex>(mutex);
@@ -21,6 +22,18 @@ namespace {
 InstalledTile::InstalledTile(const InstalledTile& other) : osg::Referenced(other), _database(other._database) {}
 
 InstalledTile::~InstalledTile() = default;
+
+void InstalledTile::setSuccessor(InstalledTile& next) {
+    const auto lock = lockFamilies();
+    _successor = &next;
+}
+
+osg::ref_ptr<InstalledTile> InstalledTile::latest() {
+    const auto lock = lockFamilies();
+    osg::ref_ptr<InstalledTile> at(this);
+    while (at->_successor) at = at->_successor;
+    return at;
+}
 
 void InstalledTile::doubt(unsigned int reasons) {
     _reasons.fetch_or(reasons, std::memory_order_relaxed);

@@ -127,13 +127,22 @@ public:
         return callback;
     }
 
+    /// Call when the tile was fitted anew: from now on what is reported for this record counts for the next one. Those
+    /// who have asked for files before refer to this one still. Requires: the next one is complete.
+    void setSuccessor(InstalledTile& next);
+    /// The record of the tile at present: this one, or the last of its successors. At any time.
+    [[nodiscard]] osg::ref_ptr<InstalledTile> latest();
+    /// That of the tile above. Null: there is none.
+    [[nodiscard]] osg::ref_ptr<InstalledTile> above() const { return parent ? parent->latest() : nullptr; }
+
     /// Call when one of these reasons, or several, hold for the tile.
     void doubt(unsigned int reasons);
     /// Call when they do not hold any more.
     void settle(unsigned int reasons);
     /// Call when these reasons hold for the tile, or for something below it, and for all tiles above.
     void doubtUpwards(unsigned int reasons) {
-        for (InstalledTile* at = this; reasons != 0 && at; at = at->parent.get()) at->doubt(reasons);
+        for (osg::ref_ptr<InstalledTile> at = reasons != 0 ? latest() : nullptr; at; at = at->above())
+            at->doubt(reasons);
     }
     /// Whether one of these reasons holds.
     [[nodiscard]] bool has(unsigned int reasons) const {
@@ -193,6 +202,7 @@ private:
     const osg::ref_ptr<InstalledDatabase> _database;
     const osg::Node* _culled = nullptr;
     osg::observer_ptr<osg::NodeCallback> _callback;
+    osg::ref_ptr<InstalledTile> _successor;
     std::atomic<unsigned int> _reasons{NotFilled};
     bool _isSlotFilled = false;
     std::atomic<bool> _isAskedForPlates{false};
