@@ -118,12 +118,9 @@ TEST(TileSurvey, KnowsWhereABinStandsInTheWorld) {
 // The kit puts a group above each of them.
 TEST(TileSurvey, KnowsTheBinsOfLeavesThatAreTransforms) {
     ViewerScene scene(with(Method::Quadratic));
-    const test::TemporaryFolder folder;
     const auto leaf = test::makeMeshTile(test::extentsDeg(-90, -45, -180, -135), 0.0);
-    ASSERT_TRUE(osgDB::writeNodeFile(*test::makeGroup({leaf}), folder / "leaf.osgb"));
     auto& tile = dynamic_cast<osg::PagedLOD&>(*scene.database().asGroup()->getChild(0));
-    tile.setDatabasePath("");
-    tile.setFileName(1, folder / "leaf.osgb");
+    ASSERT_TRUE(osgDB::writeNodeFile(*test::makeGroup({leaf}), tile.getDatabasePath() + tile.getFileName(1)));
     test::putBelow(tile, test::readBelow(tile));
     scene.lookFrom(-67.5, -157.5, 100e3, 0.0, 60.0);
     const TileSurvey survey(scene.camera(), scene.frameStamp());
