@@ -117,7 +117,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
-                   "more options for the bins, comma-separated, such as skirts=all\n"
+                   "more options for the bins, comma-separated, such as heights=0..4000\n"
                    "or horizon=-500 (metres; for the methods with +horizon); what the\nname of a method says stays");
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
     app.add_option("--json", settings.json, "file for the sums");

@@ -30,7 +30,7 @@ struct NeededTiles {
 /// the tile's own surface.
 /// The hulls are parted by the faces of both and by the edges of the frustum; what is left undecided counts as needed
 /// (a thousandth above the truth at most: TileTruth.AgreesWithHullsAndLinesOfSight).
-/// Skirts do not hide; they count as needed where the kit's bins hold them.
+/// Skirts do not hide; they are in the bins, and count as needed.
 class TileTruth {
 public:
     /// Takes note of the bins that the kit has installed on tiles.

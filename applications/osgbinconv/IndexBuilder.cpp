@@ -26,8 +26,8 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-// To be raised when a record's members change.
-constexpr const char* kHead = "osgBinsPart 5\n";
+// To be raised when a record's members or what they mean change.
+constexpr const char* kHead = "osgBinsPart 6\n";
 
 /// One description of the bytes for both directions.
 template <class Stream, class Record>

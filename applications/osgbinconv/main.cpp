@@ -24,7 +24,7 @@ using osgbinconv::DatabaseFiles;
 
 constexpr const char* kDescription =
     "Computes the bins of all tiles of a paged globe or map, made by any program.\n"
-    "Altitudes are metres above the ellipsoid, or map units; skirts count as far as cracks show them.";
+    "Altitudes are metres above the ellipsoid, or map units; skirts are included.";
 
 constexpr const char* kExamples =
     "Examples:\n"

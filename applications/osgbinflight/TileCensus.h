@@ -29,7 +29,7 @@ struct DrawnTile {
     /// Which child of which child it is, from the scene's root on, such as "0/1/2": the same for every culling method.
     std::string key;
     std::vector<DrawnMesh> meshes;
-    /// The bin by which the kit culls it, as it is shown: for the Terrain's vertical scale, with the skirts that count.
+    /// The bin by which the kit culls it, as it is shown: for the Terrain's vertical scale, skirts included.
     /// Invalid where the kit has installed none.
     AnalyticBin bin;
 };

@@ -21,8 +21,9 @@ namespace osgAnalyticBin {
 
 /// The bounding volume of a terrain tile, in the manner of osg::BoundingBox: a box in latitude, longitude and
 /// altitude, a margin in metres by which drawn geometry may leave the box (the rounding of float vertices), and the sag
-/// in metres by which meshes dip below their posts. The box includes the sag; a vertical scale does not change the sag.
-/// Units: radians and metres; degrees only in text. A default-constructed bin is empty, that is, not valid().
+/// in metres by which meshes and their skirts dip below posts. The box includes the sag; a vertical scale does not
+/// change the sag. Units: radians and metres; degrees only in text. A default-constructed bin is empty, that is, not
+/// valid().
 class OSGANALYTICBIN_EXPORT AnalyticBin {
 public:
     AnalyticBin() = default;
@@ -45,7 +46,8 @@ public:
     /// Metres, 0 or more.
     void setMargin(double margin) { _margin = margin; }
 
-    /// Metres, default 0: the part of the box's depth that is due to chords between posts, not to heights.
+    /// Metres, default 0: the part of the box's depth that is due to chords between posts and to skirts, not to
+    /// heights.
     [[nodiscard]] double sag() const { return _sag; }
     /// Metres, 0 or more.
     void setSag(double sag) { _sag = sag; }
@@ -72,6 +74,10 @@ public:
     /// Guarantee: holds every mesh of the scaled posts that the bin holds unscaled; tests: AnalyticBin.Exaggeration*.
     /// Source: doc/theory/tiles.md, section 3.
     [[nodiscard]] AnalyticBin exaggerated(double verticalScale) const;
+
+    /// The bin of the same terrain with skirts that hang down so many metres. They count as sag: their length does not
+    /// grow with a vertical scale. Of a bin that is not valid(): the same.
+    [[nodiscard]] AnalyticBin withSkirts(double metres) const;
 
     /// The middle of the bin in ECEF metres. Requires: valid().
     [[nodiscard]] osg::Vec3d center(const osg::EllipsoidModel& ellipsoid) const;

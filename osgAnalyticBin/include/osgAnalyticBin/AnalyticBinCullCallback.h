@@ -70,7 +70,7 @@ public:
     /// The bin that the tile is culled by, before any terrain shape.
     [[nodiscard]] const AnalyticBin& getBin() const { return _bin; }
 
-    /// The bin that the tile is culled by, in its present shape and with the skirts that count.
+    /// The bin that the tile is culled by, in its present shape, skirts included.
     [[nodiscard]] AnalyticBin shownBin() const;
 
     /// How the tile is culled. Options for installers alone are ignored.
@@ -121,8 +121,8 @@ public:
     /// An upper bound in metres of the altitudes that the tile and its descendants draw; infinity when not known.
     [[nodiscard]] double getBinHigh() const { return _altitude.upper; }
 
-    /// A lower bound in metres of the altitudes that the tile and its descendants draw, with the parts of skirts that
-    /// the bin holds; minus infinity when not known.
+    /// A lower bound in metres of the altitudes that the tile and its descendants draw, skirts included; minus infinity
+    /// when not known.
     [[nodiscard]] double getBinLow() const { return _altitude.lower; }
 
     /// A sphere in ECEF, for a quick first test. It holds the bin's column: the bin and, where the bin lies below the

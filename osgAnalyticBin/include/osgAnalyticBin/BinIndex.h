@@ -36,8 +36,8 @@ public:
 
     /// What the index knows of a tile.
     struct Entry {
-        /// The bin for culling: it holds the tile, all its descendants, and the parts of their skirts that cracks can
-        /// show. Not valid: the tile is never culled.
+        /// The bin for culling: it holds all that the tile and its descendants draw, skirts included. Not valid: the
+        /// tile is never culled.
         AnalyticBin bin;
         /// Lowest altitude of the tile's own surface, chords between posts included, metres.
         double ownLow = 0.0;

@@ -39,16 +39,6 @@ enum class OcclusionUse {
           ///< 256 views
 };
 
-/// Which parts of skirts (walls that hang from the edges of tiles) a bin holds. Bins of a map always hold whole skirts,
-/// because these are visible at the border of the map.
-enum class SkirtUse {
-    /// The parts that an eye above the terrain can see through cracks between tiles, and whole skirts at the outer
-    /// border of the database; the default.
-    Cracks,
-    /// All of them, for cameras below the terrain; the horizon is used only where it is given.
-    All
-};
-
 /// What the osg::ClusterCullingCallbacks of a database do, which may cull visible tiles of an ellipsoid. Those of a map
 /// cull.
 enum class ClusterUse {
@@ -87,8 +77,6 @@ struct CullOptions {
     /// files again.
     double expiry = kDefaultExpiry;
 
-    /// What bins hold of skirts.
-    SkirtUse skirts = SkirtUse::Cracks;
     /// What becomes of ClusterCullingCallbacks.
     ClusterUse cluster = ClusterUse::Replace;
     /// The range of altitudes in metres of all terrain in the database, at every level of detail. It is used for tiles
@@ -127,7 +115,7 @@ struct CullOptions {
 };
 
 /// Parses "method=exact,edges=off", "horizon=-500", "horizon=off", "inheritviewpoint=on",
-/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50",
+/// "occlusion=on", "expiry=3", "cluster=keep", "heights=-500..9000", "techniquemargin=50",
 /// "shaders=plain", "index=off", "globe=wgs84", "globe=1737400/1737400", "ground=NAME"; separated by commas or blanks;
 /// capital letters in a name do not matter; an empty text gives the default. Returns: nullopt when an item is unknown
 /// or malformed, with one line in `error` that names it and what is allowed.

@@ -10,21 +10,18 @@
 #include <osg/Matrixd>
 #include <osg/Node>
 
-#include <array>
 #include <cstdint>
 
 namespace osgAnalyticBin {
 
-/// The surface of one tile, without tiles that are paged below it and without skirts.
+/// The surface of one tile, without tiles that are paged below it, and how far skirts leave it.
 struct TileSurface {
-    /// Extents, and altitudes at vertical scale 1, chords between posts included; sag() says how much of the depth is
-    /// chords. margin() is the rounding of float vertices. Not valid(): the node is no geocentric terrain, or its
-    /// bounds cannot be computed.
+    /// Extents of all that is drawn, and altitudes of the surface at vertical scale 1, chords between posts included;
+    /// sag() says how much of the depth is chords. margin() is the rounding of float vertices. Not valid(): the node is
+    /// no geocentric terrain, or its bounds cannot be computed.
     AnalyticBin bin;
-    /// Metres: lower bounds of the surface's altitude along its south, east, north and west edge, chords included.
-    std::array<double, 4> edgeLow{};
-    /// The greatest length of skirts below the surface in metres, at any vertical scale; 0: no skirts, or skirts that
-    /// cannot be told from the surface and are in `bin`.
+    /// Metres by which skirts hang below `bin` at most, at any vertical scale: AnalyticBin::withSkirts() of this holds
+    /// all that is drawn. 0: no skirts, or skirts that cannot be told from the surface and are in `bin`.
     double skirt = 0.0;
     /// The tile draws nothing; `bin` is not valid then.
     bool isEmpty = false;
@@ -50,12 +47,11 @@ struct TileSurface {
 /// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper
 /// one is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() on an
 /// ellipsoid with |e2| of 0.1 or more, or with heights of a hundredth of the radii or more.
-/// Guarantee: in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
-/// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
-/// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
-/// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges, which are not in
-/// here.
-/// Cost: one pass over heights or vertices and triangles.
+/// Guarantee: in any unit, the bin withSkirts() holds every point of every triangle that is drawn, and the bin itself
+/// every one of the surface; of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no
+/// post deeper than half the smallest radius of curvature; tests: TileSurface.*. Terrain whose
+/// boundaries are equalised (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its
+/// edges, which are not in here. Cost: one pass over heights or vertices and triangles.
 [[nodiscard]] OSGANALYTICBIN_EXPORT TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid,
                                                             const osg::Matrixd& localToEcef, double sampleRatio = 1.0,
                                                             bool withAnyTechnique = false);

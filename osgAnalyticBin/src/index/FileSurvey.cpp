@@ -39,15 +39,11 @@ FilePlace placeOf(const TileFrame& frame, bool isBelowTile, double sampleRatio) 
 TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
     TileSurface whole;
     if (!tile.frame.ellipsoid) return whole;
-    bool isFirst = true;
     for (const auto& mesh : tile.meshes) {
         const TileSurface part = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
         if (!part.bin.valid()) return {};
         whole.isInMap = part.isInMap;
-        if (isFirst) whole.edgeLow = part.edgeLow;
-        isFirst = false;
         whole.bin.expandBy(part.bin);
-        for (std::size_t i = 0; i < 4; ++i) whole.edgeLow[i] = std::min(whole.edgeLow[i], part.edgeLow[i]);
         whole.skirt = std::max(whole.skirt, part.skirt);
         whole.isScalable = whole.isScalable || part.isScalable;
     }

@@ -30,7 +30,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+// Bins of version 1 held those parts of skirts that cracks can show.
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kValid = 1;
 constexpr std::uint32_t kLongestName = 4096;
 // Largest allocation at once, so that a wrong size fails at the end of the stream and not by lack of memory.

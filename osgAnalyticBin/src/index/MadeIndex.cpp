@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CrackFloor.h"
 #include "TileTree.h"
 
 #include <osgAnalyticBin/index/DatabaseWalk.h>
@@ -19,11 +18,12 @@ void warn(const TileTree::Gaps& gaps, const DatabaseFiles& files, const std::str
                             "\"; " + hence);
 }
 
-std::vector<BinIndex::Entry> entriesOf(const FileRecord& record, const AnalyticBin* bins) {
+std::vector<BinIndex::Entry> entriesOf(const FileRecord& record, const TreeTile* tile) {
     std::vector<BinIndex::Entry> entries;
-    for (const TileRecord& tile : record.tiles) {
-        const double ownLow = tile.surface.bin.valid() ? tile.surface.bin.bin().altitude().lower : 0.0;
-        entries.push_back({*bins++, ownLow, tile.fingerprint});
+    for (const TileRecord& own : record.tiles) {
+        const double ownLow = own.surface.bin.valid() ? own.surface.bin.bin().altitude().lower : 0.0;
+        entries.push_back({tile->isKnown ? tile->united : AnalyticBin(), ownLow, own.fingerprint});
+        ++tile;
     }
     return entries;
 }
@@ -38,14 +38,13 @@ MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
         throw Failure("no tile of a globe or a map in \"" + files.rootFile() +
                       "\"; name the root file of a paged database");
     }
-    const std::vector<AnalyticBin> bins = binsWithCracks(tree.tiles());
     made.index = new BinIndex;
     const FileStamp root = files.stampOf("");
     made.index->setSource({files.rootName(), root.size, root.time});
     for (const auto& [file, record] : made.records) {
         if (!record.isRead) continue;
         const std::size_t first = record.tiles.empty() ? 0 : tree.firstOf(file);
-        made.index->setTiles(file, entriesOf(record, bins.data() + first));
+        made.index->setTiles(file, entriesOf(record, tree.tiles().data() + first));
     }
     warn(tree.unreadFiles(), files, "files are missing or broken",
          "the tiles above are taken to reach from -11500 m to 9000 m", made);

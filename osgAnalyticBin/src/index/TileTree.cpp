@@ -115,15 +115,9 @@ void TileTree::addTiles(const FileRecord& record, const Parents& above) {
                            : Parents{static_cast<std::uint32_t>(first + static_cast<std::size_t>(source.parent))};
         _parentCount += tile.parents.size();
         requireFew(_parentCount, record.file);
-        for (const std::uint32_t parent : tile.parents) tile.depth = std::max(tile.depth, _tiles[parent].depth + 1);
-        tile.united = source.surface.bin;
+        tile.united = source.surface.bin.withSkirts(source.surface.skirt);
         tile.isKnown = tile.united.valid();
-        tile.skirt = source.surface.skirt;
-        if (tile.isKnown) {
-            tile.skirtLow = tile.united.bin().altitude().lower - tile.skirt;
-        } else if (_unknownTiles.count++ == 0) {
-            _unknownTiles.first = record.file;
-        }
+        if (!tile.isKnown && _unknownTiles.count++ == 0) _unknownTiles.first = record.file;
         _tiles.push_back(std::move(tile));
     }
 }
@@ -138,9 +132,9 @@ void TileTree::addGaps(const FileRecord& record, const Parents& above) {
             tile.isKnown = false;
             continue;
         }
-        const Interval& altitudes = tile.record->surface.isInMap ? kTerrainInMap : kTerrainAltitudes;
-        tile.united.expandBy(AnalyticBin(tile.united.bin().withAltitude(altitudes)));
-        tile.skirtLow = std::min(tile.skirtLow, altitudes.lower);
+        const TileSurface& surface = tile.record->surface;
+        const AnalyticBin missing(tile.united.bin().withAltitude(surface.isInMap ? kTerrainInMap : kTerrainAltitudes));
+        tile.united.expandBy(missing.withSkirts(surface.skirt));
     }
 }
 
@@ -149,10 +143,7 @@ void TileTree::unite() {
         for (const std::uint32_t index : child->parents) {
             TreeTile& parent = _tiles[index];
             parent.isKnown = parent.isKnown && child->isKnown;
-            if (!parent.isKnown) continue;
-            parent.united.expandBy(child->united);
-            parent.skirtLow = std::min(parent.skirtLow, child->skirtLow);
-            parent.skirt = std::max(parent.skirt, child->skirt);
+            if (parent.isKnown) parent.united.expandBy(child->united);
         }
     }
 }

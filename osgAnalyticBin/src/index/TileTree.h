@@ -20,15 +20,10 @@ struct TreeTile {
     const TileRecord* record = nullptr;
     /// More than one only where a file is paged below several tiles.
     std::vector<std::uint32_t> parents;
-    /// Number of tiles above it.
-    std::uint32_t depth = 0;
     /// False when something of the tile, or below it, has no known surface: then `united` is of no use.
     bool isKnown = true;
-    /// The surfaces of the tile and of all its descendants.
+    /// What the tile and all its descendants draw, skirts included.
     osgAnalyticBin::AnalyticBin united;
-    /// Metres, of the same tiles: the deepest that any skirt hangs, and the longest skirt.
-    double skirtLow = 0.0;
-    double skirt = 0.0;
 };
 
 /// The tiles of all files in one tree, with what they and their descendants draw put together. Keeps pointers into the

@@ -100,6 +100,14 @@ AnalyticBin AnalyticBin::exaggerated(double verticalScale) const {
     return result;
 }
 
+AnalyticBin AnalyticBin::withSkirts(double metres) const {
+    if (!valid()) return *this;
+    AnalyticBin result = *this;
+    result._bin = _bin.withAltitude({_bin.altitude().lower - metres, _bin.altitude().upper});
+    result._sag += metres;
+    return result;
+}
+
 osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
     return toOsg(toCore(ellipsoid).toEcef(_bin.center()));
 }

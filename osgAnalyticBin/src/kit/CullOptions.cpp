@@ -28,7 +28,6 @@ constexpr Names<Method, 4> kMethods{
 constexpr Names<bool, 2> kOnOff{{{true, "on"}, {false, "off"}}};
 constexpr Names<OcclusionUse, 3> kOcclusions{
     {{OcclusionUse::On, "on"}, {OcclusionUse::Off, "off"}, {OcclusionUse::Auto, "auto"}}};
-constexpr Names<SkirtUse, 2> kSkirts{{{SkirtUse::All, "all"}, {SkirtUse::Cracks, "cracks"}}};
 constexpr Names<ClusterUse, 2> kClusters{{{ClusterUse::Keep, "keep"}, {ClusterUse::Replace, "replace"}}};
 constexpr Names<bool, 2> kShaders{{{true, "plain"}, {false, "declared"}}};
 constexpr Names<IndexUse, 3> kIndexes{{{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
@@ -172,7 +171,7 @@ constexpr KnownItem choice(const char* key, const char* values, const char* mean
     return {key, values, Choice<kNames, kOption>::apply, Choice<kNames, kOption>::text, meaning};
 }
 
-constexpr std::array<KnownItem, 14> kItems{
+constexpr std::array<KnownItem, 13> kItems{
     {{"method", "quadratic|exact|sphere|none", Choice<kMethods, &CullOptions::method>::apply,
       [](const CullOptions& options) { return std::string(methodName(options.method)); },
       "How tiles are culled: by bins, quadratic (default) or exact; sphere leaves OSG's culling alone; none culls "
@@ -192,9 +191,6 @@ constexpr std::array<KnownItem, 14> kItems{
      {"expiry", "SECONDS", applyExpiry, expiryText,
       "Time, up to 86400, for which finer tiles out of view are kept when the DatabasePager has more than its target; "
       "default 3, 0 leaves OSG's own rule alone."},
-     choice<kSkirts, &CullOptions::skirts>(
-         "skirts", "cracks|all",
-         "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras below it."),
      choice<kClusters, &CullOptions::cluster>(
          "cluster", "replace|keep",
          "Whether the database's ClusterCullingCallbacks cull nothing (default) or are left in charge."),
@@ -239,7 +235,7 @@ const char* methodName(Method method) noexcept {
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
-        return std::tie(o.method, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry, o.skirts,
+        return std::tie(o.method, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry,
                         o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders, o.index,
                         o.globe, o.ground);
     };

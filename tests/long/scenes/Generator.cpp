@@ -283,8 +283,6 @@ void chooseTheme(Random& random, Description& description) {
         database.levels = std::min(database.levels, 1);
         database.verticalScale = 1.0;
         database.options.occlusion = OcclusionUse::On;
-        // else nothing hides terrain
-        if (random.chance(0.8)) database.options.skirts = SkirtUse::Cracks;
         database.options.heights = {-database.relief - 1.0, database.relief + 1.0};
         database.options.horizonUse = HorizonUse::Declared;
     }

@@ -171,12 +171,12 @@ double mostRaised(const Description& description, int number) {
     return most;
 }
 
-// Whether bins hold whole skirts in all frames.
-bool holdsAllSkirts(const Description& description, const DatabaseSpec& database) {
-    return database.options.skirts == SkirtUse::All &&
-           std::all_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
+// Whether terrain may hide tiles in any frame.
+bool mayTerrainHide(const Description& description, const DatabaseSpec& database) {
+    return database.options.horizonUse != HorizonUse::Off ||
+           std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
                const bool setsOptions = part.kind == PartKind::SetOptions || part.kind == PartKind::Install;
-               return !setsOptions || part.options.skirts == SkirtUse::All;
+               return setsOptions && part.options.horizonUse != HorizonUse::Off;
            });
 }
 
@@ -228,11 +228,10 @@ bool Triangles::block(const osg::Vec3d& from, const osg::Vec3d& to) const {
 }
 
 // doc/limits.md:
-// - "Bins hold those parts of skirts that an eye above the terrain can see through cracks.": eyes below the highest
-//   terrain.
+// - The horizon and occlusion are for eyes above the terrain: eyes below the highest.
 // - The horizon needs "a near plane that does not cut visible terrain away": lines of sight that begin below it.
 // - "Through a slit between tiles, pixels may show what is far behind", and the proofs assume that skirts close the
-//   cracks (doc/theory/tiles.md, section 4): databases without skirts.
+//   cracks (doc/theory/horizon.md, section 8): databases without skirts.
 std::vector<AllowedOccluder> allowedOccluders(const Description& description) {
     std::vector<AllowedOccluder> result;
     for (std::size_t i = 0; i < description.databases.size(); ++i) {
@@ -241,7 +240,7 @@ std::vector<AllowedOccluder> allowedOccluders(const Description& description) {
         const int number = static_cast<int>(i);
         const double relief = database.relief * largestScale(description, database, number);
         const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
-        result.push_back({number, relief, !holdsAllSkirts(description, database), fromEverywhere});
+        result.push_back({number, relief, mayTerrainHide(description, database), fromEverywhere});
         // raised terrain that the near plane cuts, from eyes above it
         if (const double raised = mostRaised(description, number); raised > 0.0)
             result.push_back({number, relief + raised, false, false});

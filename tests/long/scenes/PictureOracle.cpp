@@ -34,14 +34,6 @@ std::string nameOfState(const Part& part) {
     return isState ? stateName(part.variant) : std::string();
 }
 
-// Whether the application takes terrain away, or draws it as lines.
-bool hasHoles(const Description& description) {
-    return std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
-        return altersDrawing(part.kind) || part.kind == PartKind::Switch || part.kind == PartKind::UserCull ||
-               part.kind == PartKind::Outline || part.kind == PartKind::Raise;
-    });
-}
-
 /// Tells why pixels differ.
 class PictureComparison {
 public:
@@ -73,7 +65,7 @@ public:
         // lines and points beside the picture are wide enough to be seen in it, lines also beside what they cross
         if (!lost.isFilled && Place(pixel).isAtBorder(2)) return true;
         const auto sight = sightTo(pixel, lost, _without.painting);
-        if (lost.isPlain && (isInCrack(pixel) || isSkirtInHole(pixel, lost))) return true;
+        if (lost.isPlain && isInCrack(pixel)) return true;
         if (sight && isInSlit(pixel) && isBehindCoarseTiles(lost, *sight)) return true;
         return sight && (mayHide(_without, lost.camera, *sight) || mayHide(_with, lost.camera, *sight));
     }
@@ -162,28 +154,6 @@ private:
         });
     }
 
-    // doc/limits.md: "Bins hold those parts of skirts that an eye above the terrain can see through cracks." Through
-    // holes and between lines it sees all of them.
-    [[nodiscard]] bool isSkirtInHole(std::size_t pixel, const Delivered& lost) const {
-        const bool holdsAll = std::none_of(_allowed.begin(), _allowed.end(),
-                                           [](const AllowedOccluder& occluder) { return occluder.fromBelow; });
-        if (holdsAll || !hasHoles(_description)) return false;
-        Triangles triangles(*lost.drawable, lost.modelView);
-        triangles.surface.clear();
-        // a line is half a pixel wide to either side, which is deep where it is seen along a wall
-        const int around = lost.isFilled ? 0 : 1;
-        const double near = lost.isFilled ? 1e-4 : 1e-2;
-        for (int row = -around; row <= around; ++row) {
-            for (int column = -around; column <= around; ++column) {
-                const auto sight = sightTo(pixel, lost, _without.painting, column, row);
-                if (!sight) return false;
-                const osg::Vec3d along = (sight->end - sight->start) * near;
-                if (triangles.block(sight->end - along, sight->end + along)) return true;
-            }
-        }
-        return false;
-    }
-
     // What is in the pixel, and where in eye space.
     [[nodiscard]] std::string textAt(const Delivery& delivery, std::size_t pixel) const {
         const auto found = delivery.drawables.find(keyAt(delivery.painting, pixel));
@@ -254,13 +224,7 @@ Description picturable(Description description) {
     const auto dependsOnOrder = [](const Part& part) {
         return nameOfState(part) == "clip plane" || nameOfState(part) == "primitive restart";
     };
-    // doc/limits.md: "sees skirts through blended terrain"
-    const bool isBlended =
-        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return nameOfState(part).find("blend") == 0; });
-    for (DatabaseSpec& database : description.databases)
-        if (isBlended) database.options.skirts = SkirtUse::All;
     for (Part& part : parts) {
-        if (isBlended) part.options.skirts = SkirtUse::All;
         if (part.kind == PartKind::Camera) part.variant %= kFixedCameras;
     }
     parts.erase(std::remove_if(parts.begin(), parts.end(), dependsOnOrder), parts.end());

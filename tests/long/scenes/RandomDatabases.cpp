@@ -107,7 +107,6 @@ CullOptions randomOptions(Random& random, const DatabaseSpec& database) {
     options.occlusion = random.pick(
         std::array<OcclusionUse, 4>{OcclusionUse::Off, OcclusionUse::On, OcclusionUse::On, OcclusionUse::Auto});
     if (random.chance(0.3)) options.expiry = random.uniform(0.0, 5.0);
-    if (random.chance(0.15)) options.skirts = SkirtUse::All;
     if (random.chance(0.3))
         options.heights = {-database.relief - 1.0, database.relief + 4000.0 * std::max(1.0, database.scale())};
     return options;

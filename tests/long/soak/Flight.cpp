@@ -42,7 +42,6 @@ CullOptions randomOptions(Random& random) {
     options.horizonUse = random.pick(kHorizons);
     options.horizon = -130000.0;
     options.expiry = random.chance(0.5) ? 0.1 : 1.0;
-    options.skirts = random.chance(0.2) ? SkirtUse::All : SkirtUse::Cracks;
     return options;
 }
 

@@ -9,7 +9,7 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
+#include <osgAnalyticBin/core/mesh/FinerMeshes.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 

@@ -160,8 +160,8 @@ CullOptions parsed(const std::string& text) {
 }
 
 TEST(CullOptions, EmptyTextIsTheDefault) {
-    for (const char* text : {"", "method=quadratic expiry=3,occlusion=auto;horizon=declared,edges=on",
-                             "skirts=cracks,cluster=replace,index=auto"})
+    for (const char* text :
+         {"", "method=quadratic expiry=3,occlusion=auto;horizon=declared,edges=on", "cluster=replace,index=auto"})
         EXPECT_TRUE(parsed(text) == CullOptions()) << text;
     EXPECT_EQ(CullOptions().method, Method::Quadratic);
     EXPECT_EQ(CullOptions().expiry, 3.0);
@@ -179,7 +179,6 @@ TEST(CullOptions, OfAllItemsReadBackAndDifferFromTheDefault) {
                              "expiry=0",
                              "expiry=0.1",
                              "expiry=86400",
-                             "skirts=all",
                              "cluster=keep",
                              "heights=-500.5..9000",
                              "heights=-11500..8000",
@@ -228,7 +227,6 @@ TEST(CullOptions, WhatIsWrongIsNamedInOneLine) {
                                                          {"horizon=low", "low"},
                                                          {"horizon=1e9", "1e9"},
                                                          {"edges=maybe", "maybe"},
-                                                         {"skirts=none", "none"},
                                                          {"cluster=off", "off"},
                                                          {"heights=9", "9"},
                                                          {"heights=3..1", "3..1"},

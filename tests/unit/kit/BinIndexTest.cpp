@@ -164,11 +164,13 @@ TEST(BinIndex, ForeignFilesAreRefused) {
     expectRefused("", "empty");
     expectRefused(std::string(100000, '\0'), "zeros");
     expectRefused("<html>404 not found</html>", "a web page");
-    std::string newer = bytesOf(*randomIndex(1));
-    newer[8] = 2;
-    std::string error;
-    EXPECT_FALSE(indexFrom(newer, error));
-    EXPECT_NE(error.find("version"), std::string::npos) << error;
+    for (const char version : {'\1', '\3'}) {
+        std::string other = bytesOf(*randomIndex(1));
+        other[8] = version;
+        std::string error;
+        EXPECT_FALSE(indexFrom(other, error));
+        EXPECT_NE(error.find("version"), std::string::npos) << error;
+    }
 }
 
 TEST(BinIndex, WritesAWholeFileOrNone) {

@@ -4,8 +4,8 @@
 // Which databases are taken for maps, and what bins of maps change in them.
 //
 // Databases that cover a part of the globe: their horizon, and when those of other builders, which declare none, have
-// one; and skirts at their border, where no neighbour stands before them. Oracle of these: the triangles that
-// osgTerrain draws. More regions: tests/scenes. What the core proves: HorizonTest.cpp.
+// one. And the skirts of tiles. Oracle of these: the triangles that osgTerrain draws. More regions: tests/scenes. What
+// the core proves: HorizonTest.cpp.
 
 #include "KitTest.h"
 
@@ -42,81 +42,82 @@ constexpr float kSkirt = 30000.0f;
 
 // A root tile with one tile below it.
 struct Pair {
-    Pair(const core::GeodeticBin& rootExtents, const core::GeodeticBin& extents, float scale = 1.0f)
+    explicit Pair(const core::GeodeticBin& extents, float rootSkirt = kSkirt)
         : tile(makeFlatTile(extents, 50.0f, kSkirt)),
-          root(makePaged(makeFlatTile(rootExtents, 50.0f, kSkirt), "below.osgb", 1e9f)) {
+          root(makePaged(makeFlatTile(extentsDeg(10, 50, 0, 40), 50.0f, rootSkirt), "below.osgb", 1e9f)) {
         putBelow(*root, tile);
-        terrain->setVerticalScale(scale);
         terrain->addChild(root);
     }
+
+    // The tile's skirts are in its bin and in that above it.
+    void expectHeld() const {
+        for (osg::Node* node : {static_cast<osg::Node*>(root), static_cast<osg::Node*>(tile)}) {
+            ASSERT_NE(installedOn(*node), nullptr);
+            const AnalyticBin bin = culledBin(*installedOn(*node));
+            const DrawnTriangles drawn = drawnTriangles(*tile, terrain->getVerticalScale());
+            ASSERT_FALSE(drawn.skirts.empty());
+            EXPECT_LE(metresOutside(bin, samplesOf(drawn.skirts), earth()), bin.margin());
+        }
+    }
+
     osg::ref_ptr<osgTerrain::TerrainTile> tile;
     osg::ref_ptr<osg::PagedLOD> root;
     osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
 };
 
-double skirtOf(const Pair& pair) {
-    installBins(*pair.terrain, optionsOf("heights=0..100"));
-    return installedOn(*pair.tile)->getSkirt();
-}
+// In the middle of the root tile, and at its border.
+const core::GeodeticBin kPlaces[] = {extentsDeg(20, 30, 10, 20), extentsDeg(10, 20, 30, 40)};
 
-TEST(Border, TilesHoldTheirSkirtsWhole) {
-    for (const float scale : {1.0f, 3.0f}) {
-        const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(10, 20, 30, 40), scale);
-        installBins(*pair.terrain, optionsOf("heights=0..100"));
-        for (osg::Node* node : {static_cast<osg::Node*>(pair.root), static_cast<osg::Node*>(pair.tile)}) {
-            ASSERT_NE(installedOn(*node), nullptr);
-            const AnalyticBin bin = culledBin(*installedOn(*node));
-            const DrawnTriangles drawn = drawnTriangles(*pair.tile, scale);
-            ASSERT_FALSE(drawn.skirts.empty());
-            EXPECT_LE(metresOutside(bin, samplesOf(drawn.skirts), earth()), bin.margin());
+TEST(Skirts, AreInTheBinsOfTheirTileAndOfThatAbove) {
+    for (const auto& place : kPlaces) {
+        for (const float scale : {1.0f, 3.0f, 0.5f}) {
+            const Pair pair(place);
+            pair.terrain->setVerticalScale(scale);
+            installBins(*pair.terrain, optionsOf("heights=0..100"));
+            pair.expectHeld();
         }
     }
 }
 
-// OSG gives longitudes beyond the date line as they are, and other builders from the other side.
-TEST(Border, RunsAlongEachSideAndIsInheritedButNeitherAtAPoleNorAroundTheGlobe) {
-    const auto root = extentsDeg(-20, 20, 160, 200), globe = extentsDeg(-90, 90, -180, 180),
-               north = extentsDeg(30, 90, -180, 180);
-    EXPECT_EQ(skirtOf({root, extentsDeg(-20, -10, 170, 180)}), kSkirt);
-    EXPECT_EQ(skirtOf({root, extentsDeg(10, 20, 170, 180)}), kSkirt);
-    EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, 160, 170)}), kSkirt);
-    EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, -170, -160)}), kSkirt);
-    EXPECT_EQ(skirtOf({root, extentsDeg(0, 10, 170, 180)}), 0.0);
-    EXPECT_EQ(skirtOf({globe, extentsDeg(-90, 0, -180, -90)}), 0.0);
-    EXPECT_EQ(skirtOf({globe, extentsDeg(0, 90, 90, 180)}), 0.0);
-    EXPECT_EQ(skirtOf({north, extentsDeg(60, 90, -180, -90)}), 0.0);
-    EXPECT_EQ(skirtOf({north, extentsDeg(30, 60, -180, -90)}), kSkirt);
+TEST(Skirts, OfAnIndexAreInItsBins) {
+    for (const float scale : {1.0f, 3.0f, 0.5f}) {
+        const Pair pair(kPlaces[0]);
+        pair.terrain->setVerticalScale(scale);
+        const auto entryOf = [](osg::Node& mesh) {
+            const TileSurface surface = tileSurface(mesh, osg::EllipsoidModel(), osg::Matrixd());
+            const double low = surface.bin.bin().altitude().lower;
+            return BinIndex::Entry{surface.bin.withSkirts(surface.skirt), low,
+                                   surfaceFingerprint(mesh, osg::Matrixd())};
+        };
+        const osg::ref_ptr<BinIndex> index = new BinIndex;
+        index->setTiles("", {entryOf(*pair.root->getChild(0))});
+        index->setTiles("below.osgb", {entryOf(*pair.tile)});
+        installBinsByIndex(*pair.terrain, {}, *index);
+        // known, or the bin would hold the default heights
+        ASSERT_LT(installedOn(*pair.root)->getBin().bin().altitude().upper, 1000.0);
+        EXPECT_EQ(installedOn(*pair.root)->getSkirt(), 0.0);
+        pair.expectHeld();
+    }
 }
 
-TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
-    const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(20, 30, 10, 20));
-    const auto entryOf = [](osg::Node& mesh) {
-        const TileSurface surface = tileSurface(mesh, osg::EllipsoidModel(), osg::Matrixd());
-        const double low = surface.bin.bin().altitude().lower;
-        return BinIndex::Entry{surface.bin, low, surfaceFingerprint(mesh, osg::Matrixd())};
-    };
-    const osg::ref_ptr<BinIndex> index = new BinIndex;
-    index->setTiles("", {entryOf(*pair.root->getChild(0))});
-    index->setTiles("below.osgb", {entryOf(*pair.tile)});
-    installBinsByIndex(*pair.terrain, {}, *index);
-    const AnalyticBinCullCallback& root = *installedOn(*pair.root);
-    // known, or the bin would hold the default heights
-    ASSERT_LT(root.getBin().bin().altitude().upper, 1000.0);
-    EXPECT_EQ(root.getSkirt(), kSkirt);
-    EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), 0.0);
+// The maker of a stored bin need not have thought of skirts.
+TEST(Skirts, HangBelowStoredBins) {
+    const Pair pair(kPlaces[0]);
+    setStoredBin(*pair.tile, tileSurface(*pair.tile, osg::EllipsoidModel(), osg::Matrixd()).bin);
+    installBins(*pair.terrain, optionsOf("heights=0..100"));
+    pair.expectHeld();
 }
 
-// A stored bin says nothing of skirts.
-TEST(Border, StoredBinsHoldSkirtsWholeThereAndWhereAsked) {
-    for (const bool isAsked : {false, true}) {
-        for (const double east : {20.0, 40.0}) {
-            const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(20, 30, east - 10.0, east));
-            const AnalyticBin stored(core::GeodeticBin::fromDegrees({20, 30}, {east - 10.0, east}, {-3000, 100}));
-            setStoredBin(*pair.tile, stored);
-            installBins(*pair.terrain, optionsOf(isAsked ? "heights=0..100,skirts=all" : "heights=0..100"));
-            ASSERT_NE(installedOn(*pair.tile), nullptr);
-            const bool isHeld = isAsked || east == 40.0;
-            EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), isHeld ? kSkirt : 0.0f) << isAsked << east;
+// Nobody knows before the tile is there.
+TEST(Skirts, LongerThanThoseOfTheTileAboveExpandItsBin) {
+    for (const bool isStored : {false, true}) {
+        for (const float scale : {1.0f, 3.0f, 0.5f}) {
+            const Pair pair(kPlaces[0], 100.0f);
+            pair.terrain->setVerticalScale(scale);
+            if (isStored)
+                setStoredBin(*pair.root, AnalyticBin(core::GeodeticBin::fromDegrees({10, 50}, {0, 40}, {-9000, 100})));
+            installBins(*pair.terrain, optionsOf("heights=0..100"));
+            pair.expectHeld();
         }
     }
 }

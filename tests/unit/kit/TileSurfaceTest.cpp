@@ -71,40 +71,6 @@ TEST(TileSurface, HoldsATerrainTileWhoseColoursStandElsewhere) {
     }
 }
 
-TEST(TileSurface, KnowsHowLowEveryEdgeIs) {
-    Random random(3);
-    for (const TileCase& c : tileCases()) {
-        const auto tile = randomTile(c, random);
-        const TileSurface surface = surfaceOf(*tile);
-        std::array<double, 4> seen;
-        seen.fill(std::numeric_limits<double>::infinity());
-        const core::Interval latitude = c.extents.latitude(), longitude = c.extents.longitude();
-        const double row = latitude.width() / (c.rows - 1), column = longitude.width() / (c.columns - 1);
-        const auto altitude = [&](unsigned int i, unsigned int j) {
-            return static_cast<double>(heightsOf(*tile).getHeight(i, j));
-        };
-        const auto chord = [&](double& low, unsigned int i, unsigned int j, unsigned int di, unsigned int dj) {
-            const glm::dvec3 a =
-                kEllipsoid.toEcef({latitude.lower + j * row, longitude.lower + i * column, altitude(i, j)});
-            const glm::dvec3 b = kEllipsoid.toEcef(
-                {latitude.lower + (j + dj) * row, longitude.lower + (i + di) * column, altitude(i + di, j + dj)});
-            for (int k = 0; k <= 8; ++k) low = std::min(low, kEllipsoid.toGeodetic(a + k / 8.0 * (b - a)).altitude);
-        };
-        for (unsigned int i = 0; i + 1 < c.columns; ++i) {
-            chord(seen[0], i, 0, 1, 0);
-            chord(seen[2], i, c.rows - 1, 1, 0);
-        }
-        for (unsigned int j = 0; j + 1 < c.rows; ++j) {
-            chord(seen[1], c.columns - 1, j, 0, 1);
-            chord(seen[3], 0, j, 0, 1);
-        }
-        for (std::size_t edge = 0; edge < 4; ++edge) {
-            EXPECT_LE(surface.edgeLow[edge], seen[edge] + 1e-3) << c.name << " edge " << edge;
-            EXPECT_LE(seen[edge] - surface.edgeLow[edge], 1.1 * surface.bin.sag()) << c.name << " edge " << edge;
-        }
-    }
-}
-
 TEST(TileSurface, FollowsTheSampleRatio) {
     Random random(4);
     const TileCase c = tileCases().front();
@@ -129,7 +95,6 @@ TEST(TileSurface, PassesOverPostsWithoutData) {
     EXPECT_GT(surface.bin.bin().altitude().lower, -20000.0);
     const auto samples = samplesOf(drawnTriangles(*tile, 1.0f).surface);
     EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
-    for (const double low : surface.edgeLow) EXPECT_LE(low, altitudesOf(samples).lower + surface.bin.sag());
 }
 
 TEST(TileSurface, KnowsATileWithoutHeights) {
@@ -145,20 +110,27 @@ TEST(TileSurface, KnowsATileWithoutHeights) {
     EXPECT_LE(metresOutside(surface.bin.exaggerated(5.0), samples, kEllipsoid), surface.bin.margin());
 }
 
-TEST(TileSurface, LeavesSkirtsOfTerrainTilesOut) {
+// Before they are scaled or after.
+TEST(TileSurface, KnowsTheSkirtsOfTerrainTiles) {
     Random random(6);
     for (const TileCase& c : tileCases()) {
-        const auto tile = randomTile(c, random);
-        heightsOf(*tile).setSkirtHeight(4000.0f);
-        const TileSurface surface = surfaceOf(*tile);
-        EXPECT_EQ(surface.skirt, 4000.0);
-        const DrawnTriangles drawn = drawnTriangles(*tile, 2.0f);
-        ASSERT_FALSE(drawn.skirts.empty());
-        const AnalyticBin bin = surface.bin.exaggerated(2.0);
-        EXPECT_LE(metresOutside(bin, samplesOf(drawn.surface, 3), kEllipsoid), bin.margin()) << c.name;
-        const core::Interval h = bin.bin().altitude();
-        const AnalyticBin hung(bin.bin().withAltitude({h.lower - surface.skirt, h.upper}));
-        EXPECT_LE(metresOutside(hung, samplesOf(drawn.skirts, 3), kEllipsoid), bin.margin()) << c.name;
+        for (const float skirt : {40.0f, 4000.0f, 1e6f}) {
+            const auto tile = randomTile(c, random);
+            heightsOf(*tile).setSkirtHeight(skirt);
+            const TileSurface surface = surfaceOf(*tile);
+            EXPECT_EQ(surface.skirt, static_cast<double>(skirt));
+            for (const float scale : {2.0f, 1.0f, 0.25f, 0.0f, -1.0f}) {
+                const DrawnTriangles drawn = drawnTriangles(*tile, scale);
+                ASSERT_FALSE(drawn.skirts.empty());
+                const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
+                EXPECT_LE(metresOutside(bin, samplesOf(drawn.surface, 1), kEllipsoid), bin.margin()) << c.name;
+                for (const AnalyticBin& whole :
+                     {bin.withSkirts(surface.skirt),
+                      surface.bin.withSkirts(surface.skirt).exaggerated(static_cast<double>(scale))})
+                    EXPECT_LE(metresOutside(whole, samplesOf(drawn.skirts, 3), kEllipsoid), whole.margin())
+                        << c.name << " scale " << scale << " skirt " << skirt;
+            }
+        }
     }
 }
 

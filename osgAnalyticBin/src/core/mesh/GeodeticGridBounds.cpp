@@ -42,42 +42,44 @@ double haversine(double angle) {
 }
 
 // Where the closed forms hold.
-bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
+bool isEarthLike(const Ellipsoid& ellipsoid, double reach, double skirt) {
     const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-    return reach < 0.1 * smaller && std::abs(ellipsoid.eccentricitySquared()) < 0.1;
+    return reach < 0.1 * smaller && skirt < smaller / 3.0 && std::abs(ellipsoid.eccentricitySquared()) < 0.1;
 }
 
 // The latitude up to which chords between posts of the parallel `latitude` >= 0 run, `halfColumn` radians either way.
-double polewardLimit(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
+// `depth`: metres, of the deepest post.
+double polewardLimit(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double depth) {
     const double fromAxis = std::atan2(std::sin(latitude), std::cos(latitude) * cosHalfColumn);
     const double e2 = ellipsoid.eccentricitySquared();
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
-    const double lag = e2 > 0.0 ? kRunSlack * e2 * (a / b) * (a / b) * a * a / (b * (a - reach) * cosHalfColumn) : 0.0;
+    const double lag = e2 > 0.0 ? kRunSlack * e2 * (a / b) * (a / b) * a * a / (b * (a - depth) * cosHalfColumn) : 0.0;
     const double run = std::max(0.0, fromAxis - latitude) / (1.0 - lag);
     return std::min(kHalfPi, latitude + run + kAngleRounding);
 }
 
 }  // namespace
 
-GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept
+GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach,
+                                       double skirt) noexcept
     : _latitude(grid.latitude) {
     const double row = grid.latitude.width() / static_cast<double>(grid.rows - 1);
     const double column = grid.longitude.width() / static_cast<double>(grid.columns - 1);
-    assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell && reach >= 0.0);
+    assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell && reach >= 0.0 &&
+           skirt >= 0.0);
     if (ellipsoid.isPlane()) return;
-    _isKnown = isEarthLike(ellipsoid, reach);
+    _isKnown = isEarthLike(ellipsoid, reach, skirt);
     if (!_isKnown) {
         _sag = std::numeric_limits<double>::infinity();
-        _edgeSag.fill(_sag);
         return;
     }
 
     const double cosHalfColumn = std::cos(0.5 * column);
     if (grid.latitude.upper > 0.0)
-        _latitude.upper = polewardLimit(ellipsoid, grid.latitude.upper, cosHalfColumn, reach);
+        _latitude.upper = polewardLimit(ellipsoid, grid.latitude.upper, cosHalfColumn, reach + skirt);
     if (grid.latitude.lower < 0.0)
-        _latitude.lower = -polewardLimit(ellipsoid, -grid.latitude.lower, cosHalfColumn, reach);
+        _latitude.lower = -polewardLimit(ellipsoid, -grid.latitude.lower, cosHalfColumn, reach + skirt);
 
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
@@ -91,14 +93,10 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     };
     const double rounding = kLengthRounding * earthScale(ellipsoid);
     const double radius = std::max(a, b) + reach;
-    const auto sagOf = [=](double versine) { return radius * versine + rounding; };
     const double cosSouth = cosAt(grid.latitude.lower);
     const double cosNorth = cosAt(grid.latitude.upper);
     const bool acrossEquator = grid.latitude.lower <= 0.0 && grid.latitude.upper >= 0.0;
-    _sag = sagOf(versine(half, acrossEquator ? 1.0 : std::max(cosSouth, cosNorth)));
-    const double meridian = sagOf(2.0 * half.latitude);
-    const HalfCell alongParallel{0.0, half.longitude};
-    _edgeSag = {sagOf(versine(alongParallel, cosSouth)), meridian, sagOf(versine(alongParallel, cosNorth)), meridian};
+    _sag = radius * versine(half, acrossEquator ? 1.0 : std::max(cosSouth, cosNorth)) + rounding;
 }
 
 }  // namespace osgAnalyticBin::core

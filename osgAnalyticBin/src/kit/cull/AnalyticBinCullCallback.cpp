@@ -190,10 +190,7 @@ void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
 }
 
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
-    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
-    const core::Interval& altitude = bin.bin().altitude();
-    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
-    return bin;
+    return (_setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin).withSkirts(_skirt);
 }
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {

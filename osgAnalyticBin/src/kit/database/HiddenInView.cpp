@@ -82,11 +82,6 @@ bool isDepthGiven(const DatabaseView& view, const CullOptions& options) {
     return options.horizonUse == HorizonUse::Given && !view.ellipsoid.isPlane();
 }
 
-// An eye below the terrain looks through the backs of the faces that would hide.
-bool isAboveTerrain(const CullOptions& options) {
-    return options.skirts == SkirtUse::Cracks;
-}
-
 constexpr const char* kOcclusionOn = "occlusion=on or occlusion=auto";
 constexpr const char* kNoGaps = "meshes that cover the globe or a rectangle without gaps";
 constexpr const char* kPerspective = "a perspective camera with a depth buffer of 24 bits";
@@ -104,7 +99,6 @@ const char* missingToHide(const DatabaseView& view, Database& database, const Cu
     if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return kOcclusionOn;
     if (!isDepthGiven(view, options)) {
         if (options.horizonUse == HorizonUse::Off) return "options without horizon=off";
-        if (!isAboveTerrain(options)) return "options without skirts=all";
         if (database.has(Finding::Gap)) return kNoGaps;
     }
     // where other tiles cover the globe, nothing depends on stray ones
@@ -260,9 +254,9 @@ HiddenInView findHidden(DatabaseView& view, Database& database, const CullOption
         if (viewpoint->eye()) found.nearReach = viewpoint->nearReach();
         return found;
     };
-    if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
+    if (isGiven && (database.has(Finding::Gap) || region)) {
         view.region = nullptr;
-        miss(isAboveTerrain(options) ? kNoGaps : "options without skirts=all");
+        miss(kNoGaps);
         const auto eye = eyeAboveDepth(view, *viewpoint, deepest);
         return note({eye, {}, eye.has_value(), {}, {}});
     }
@@ -271,15 +265,14 @@ HiddenInView findHidden(DatabaseView& view, Database& database, const CullOption
         miss(kEyeOver);
         return {};
     }
-    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
     const bool isNearPlaneBounded = isFinalProjection(cullStack) || ComputedNear::isPossible(visitor, cullStack);
-    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneBounded)
+    if (viewpoint->eye() && options.occlusion != OcclusionUse::Off && !isNearPlaneBounded)
         reportUnknownNearPlane(database, nullptr);
     miss(options.occlusion == OcclusionUse::Off ? kOcclusionOn
          : !viewpoint->eye()                    ? kPerspective
          : !isNearPlaneBounded                  ? kPlanes
                                                 : nullptr);
-    const bool findsOccluded = mayFindOccluded && isNearPlaneBounded && isOcclusionDue(options.occlusion, last);
+    const bool findsOccluded = viewpoint->eye() && isNearPlaneBounded && isOcclusionDue(options.occlusion, last);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;

@@ -219,9 +219,12 @@ public:
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin& about = aboutOn(model, callback.getLocalToEcef());
-        if (!isOther && isHeld(about, callback.getBin())) return;
-        const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
-        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
+        if (!isOther && isHeld(about, about.sag(), callback.getBin())) return;
+        const TileSurface& surface = surfaceOn(model, callback.getLocalToEcef());
+        const bool areSkirtsCounted = surface.skirt <= callback.getSkirt();
+        const AnalyticBin own = areSkirtsCounted ? surface.bin : surface.bin.withSkirts(surface.skirt);
+        const AnalyticBin& bin = callback.getBin();
+        if (!isOther && (_isTerrain ? bin.contains(own) : isHeld(own, surface.bin.sag(), bin))) return;
         const AnalyticBin& content = own.valid() ? own : about;
         if (_isMerged) {
             Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
@@ -247,10 +250,10 @@ private:
     }
 
     // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
-    static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
+    static bool isHeld(const AnalyticBin& content, double sag, const AnalyticBin& bin) {
         if (!content.valid()) return false;
         const core::Interval& altitude = content.bin().altitude();
-        const double posts = std::min(altitude.lower + content.sag(), altitude.upper);
+        const double posts = std::min(altitude.lower + sag, altitude.upper);
         const core::Interval room{bin.bin().altitude().lower - bin.margin(), bin.bin().altitude().upper + bin.margin()};
         return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
     }
@@ -263,9 +266,9 @@ private:
     }
 
     // Read once, for all tiles above, unless a transform in between has moved since bins were installed.
-    const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
+    const TileSurface& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
         const osg::Matrixd toEcef = _toHere * localToEcef;
-        if (!_surface || toEcef != _toEcef) _surface = tileSurface(_node, model, toEcef).bin;
+        if (!_surface || toEcef != _toEcef) _surface = tileSurface(_node, model, toEcef);
         _toEcef = toEcef;
         return *_surface;
     }
@@ -277,7 +280,7 @@ private:
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _about;
     osg::Matrixd _aboutToEcef;  // that it was found with
-    std::optional<AnalyticBin> _surface;
+    std::optional<TileSurface> _surface;
     osg::Matrixd _toEcef;  // that the surface was read with
     std::optional<DrawnState> _drawn;
 };

@@ -8,6 +8,7 @@
 #include "../surface/TilePlates.h"
 
 #include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/core/mesh/FinerMeshes.h>
 
 #include <osg/Drawable>
 #include <osg/NodeVisitor>
@@ -123,8 +124,10 @@ public:
             return std::move(_fit);
         }
         hasStoredBin(*_tile.node) ? fitStored() : fitUnstored();
-        if (_fit.surface.valid() && (_from.hasNewContent || leavesHeights())) report(Finding::Larger, _fit.surface);
-        if (leavesExtents()) report(Finding::Larger, _fit.extents.isMeasured ? _fit.surface : _fit.bin);
+        if (_drawn.valid() && (_from.hasNewContent || leavesHeights() || hangsLower())) report(Finding::Larger, _drawn);
+        if (leavesExtents())
+            report(Finding::Larger, _fit.extents.isMeasured ? _drawn : _fit.bin.withSkirts(_fit.skirt));
+        noteDepth();
         if (_shape.areBoundariesEqual && _fit.isScalable) {
             _fit.bin = withHeights(_fit.bin);
             _fit.surface = withHeights(_fit.surface);
@@ -139,10 +142,6 @@ public:
 
 private:
     void report(Finding finding, const AnalyticBin& drawn = {}) { _fit.findings.emplace_back(finding, drawn); }
-    [[nodiscard]] bool countsSkirts() const {
-        // makers of bins need not know that nothing stands before the skirts on the border
-        return _from.options.skirts == SkirtUse::All || _fit.extents.edges.areOnBorder();
-    }
     [[nodiscard]] bool isHeld(const AnalyticBin& outer, const AnalyticBin& inner, double sag) const {
         return !outer.valid() || !inner.valid() || nearlyHolds(outer, inner, sag, _ellipsoid);
     }
@@ -164,26 +163,15 @@ private:
         return surface;
     }
 
-    void standIn(const core::GeodeticBin& extents) {
-        const InstalledTile::Extents* const above = _from.parent ? &_from.parent->extents : nullptr;
-        _fit.extents.bin = extents;
-        _fit.extents.edges =
-            core::TileEdges::of(extents, above ? &above->bin : nullptr, above ? &above->edges : nullptr);
-    }
-
-    // The bin of a tile of which no more is known than its surface and the declared heights.
+    // The bin of a tile with finer ones of which no more is known than its surface and the declared heights.
     [[nodiscard]] AnalyticBin rangedBin(const TileSurface& surface) const {
         const core::GeodeticBin& extents = surface.bin.bin();
-        double sag = core::crackDepth(_ellipsoid, extents, _fit.extents.edges);
-        core::Interval altitude = extents.altitude();
-        if (!_isLeaf) {
-            sag = std::max(sag, core::sagOfFinerMeshes(_ellipsoid, extents, surface.isScalable));
-            altitude.upper = std::max(altitude.upper, _heights.upper);
-        }
-        altitude.lower = std::min(altitude.lower, _heights.lower - sag);
+        const double sag = core::sagOfFinerMeshes(_ellipsoid, extents, surface.isScalable);
+        const core::Interval altitude{std::min(extents.altitude().lower, _heights.lower - sag),
+                                      std::max(extents.altitude().upper, _heights.upper)};
         AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
-        // in latitude and in longitude
-        if (!_isLeaf) bin.setMargin(bin.margin() + 2.0 * roundingOf(_ellipsoid));
+        // in latitude, in longitude and by the lengths of skirts
+        bin.setMargin(bin.margin() + 2.0 * roundingOf(_ellipsoid));
         return bin;
     }
 
@@ -192,28 +180,16 @@ private:
         _fit.isTerrain = surface.bin.valid();
         if (!_fit.isTerrain && !surface.isEmpty && _above.valid()) report(Finding::Unverifiable);
         if (!_fit.isTerrain) return;
-        standIn(surface.bin.bin());
+        _fit.extents.bin = surface.bin.bin();
         _fit.extents.isMeasured = true;
         _fit.surface = surface.bin;
         _fit.isScalable = surface.isScalable;
-        // what is drawn, and nothing else; exaggeration would not treat skirts as heights
-        const core::Interval& altitude = surface.bin.bin().altitude();
         const bool isScaled = surface.isScalable && _shape.verticalScale != 1.0;
         const bool isDrawnAsRead = !isScaled && !_shape.areBoundariesEqual;
         _fit.isDeclared = isDrawnAsRead && !_isLeaf;
-        if (countsSkirts()) _fit.skirt = surface.skirt;
-        _fit.bin = _isLeaf && isDrawnAsRead
-                       ? withAltitude(surface.bin, {altitude.lower - surface.skirt + _fit.skirt, altitude.upper}, 0.0)
-                       : rangedBin(surface);
-    }
-
-    // The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their
-    // edges.
-    [[nodiscard]] AnalyticBin dippedBin(const AnalyticBin& bin) const {
-        const double relief = _heights.width() + bin.sag();
-        const double dip = core::dipBehindEdge(_ellipsoid, bin.bin(), _fit.extents.edges, relief);
-        const core::Interval& altitude = bin.bin().altitude();
-        return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
+        _fit.skirt = surface.skirt;
+        _fit.bin = _isLeaf ? surface.bin : rangedBin(surface);
+        _drawn = surface.bin.withSkirts(surface.skirt);
     }
 
     // Returns: nullptr when the index does not know the tile as it is.
@@ -225,14 +201,10 @@ private:
     void fitIndexed(const BinIndex::Entry& entry) {
         _fit.isTerrain = true;
         _fit.isScalable = hasTerrainTile(_tile);
-        standIn(entry.bin.bin());
+        _fit.extents.bin = entry.bin.bin();
         _fit.surface = surfaceAbove(entry.ownLow, entry.bin);
-        _fit.bin = dippedBin(entry.bin);
-        if (!_fit.extents.edges.areOnBorder()) return;
-        // an index says nothing of skirts
-        const TileSurface surface = meshSurface();
-        _fit.skirt = surface.skirt;
-        if (!surface.bin.valid()) _fit.bin.init();
+        _fit.bin = _drawn = entry.bin;
+        _isIndexed = true;
     }
 
     // Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
@@ -247,7 +219,7 @@ private:
     void fitUnknown() {
         report(Finding::UnknownTechnique);
         const TileSurface surface = meshSurface();
-        if (surface.bin.valid()) standIn(surface.bin.bin());
+        if (surface.bin.valid()) _fit.extents.bin = surface.bin.bin();
         _fit.isScalable = true;
         _fit.isTerrain = true;
     }
@@ -266,7 +238,7 @@ private:
         if (!isWithinBin || (_from.hasNewContent && surface.valid())) _fit.bin.expandBy(surface);
         const AnalyticBin& drawn = _fit.bin.valid() ? _fit.bin : surface;
         const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
-        if (!isWithinBin || !isHeld(_above, drawn, sag)) report(Finding::LargerThanStored, drawn);
+        if (!isWithinBin || !isHeld(_above, drawn, sag)) report(Finding::LargerThanStored, drawn.withSkirts(own.skirt));
         return surface;
     }
 
@@ -301,15 +273,17 @@ private:
         const AnalyticBin surface = checkStored(own);
         if (!_fit.bin.valid()) return;
         _fit.surface = shownSurface(surface);
-        standIn(_fit.bin.bin());
-        if (countsSkirts()) _fit.skirt = own.skirt;
+        _fit.extents.bin = _fit.bin.bin();
+        // its maker need not have counted them
+        _fit.skirt = own.skirt;
+        _drawn = _fit.surface.withSkirts(own.skirt);
         correct();
         _fit.stored = _fit.bin;
     }
 
     void fitUnstored() {
-        // an index does not know how far skirts hang, nor meshes of other sample ratios
-        const bool isIndexFit = _from.options.skirts == SkirtUse::Cracks && _shape.sampleRatio == 1.0;
+        // an index does not know meshes of other sample ratios
+        const bool isIndexFit = _shape.sampleRatio == 1.0;
         const BinIndex::Entry* const entry = isIndexFit ? indexEntry() : nullptr;
         if (entry && entry->bin.valid()) {
             fitIndexed(*entry);
@@ -317,24 +291,51 @@ private:
         } else {
             fitSurface();
             if (isIndexFit && _fit.isTerrain && !_isLeaf && !_shape.areBoundariesEqual) report(Finding::IndexWanted);
-            if (isIndexFit && _fit.isTerrain && _from.index && !entry) report(Finding::OtherThanIndexed, _fit.bin);
+            if (isIndexFit && _fit.isTerrain && _from.index && !entry)
+                report(Finding::OtherThanIndexed, _fit.bin.withSkirts(_fit.skirt));
             if (!_fit.isScalable || _shape.sampleRatio == 1.0) checkUnstored(_fit.surface, _fit.surface.sag());
         }
-        if (!_fit.bin.valid()) return;
-        _fit.bin.setBin(core::withGaps(_ellipsoid, _fit.bin.bin(), _fit.extents.edges));
-        correct();
+        if (_fit.bin.valid()) correct();
     }
 
-    // Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
+    // Whether tiles above it whose bins hold the declared heights may be too low for what it draws, or not deep enough.
     [[nodiscard]] bool leavesHeights() const {
-        const core::Interval& altitude = _fit.surface.bin().altitude();
-        return altitude.upper > _heights.upper || altitude.lower + _fit.surface.sag() < _heights.lower;
+        const core::Interval& altitude = _drawn.bin().altitude();
+        return altitude.upper > _heights.upper || altitude.lower + _drawn.sag() < _heights.lower;
+    }
+
+    // The tile above that has a bin; null: none.
+    [[nodiscard]] const InstalledTile* tileAbove() const {
+        const InstalledTile* above = _from.parent;
+        while (above && !above->ordinal) above = above->parent.get();
+        return above;
+    }
+
+    [[nodiscard]] InstalledTile::Depth depthAbove() const {
+        const InstalledTile* const above = tileAbove();
+        return above ? above->extents.depth : InstalledTile::Depth();
+    }
+
+    // Whether its skirts may hang out of the bins above it. In a bin of an index they are a part of the sag. A vertical
+    // scale moves bins that hold each other apart, but not the lengths of skirts.
+    [[nodiscard]] bool hangsLower() const {
+        const InstalledTile::Depth above = depthAbove();
+        const double skirt = _isIndexed ? _drawn.sag() : _fit.skirt;
+        return skirt > above.skirt + roundingOf(_ellipsoid) &&
+               (_fit.isScalable || _drawn.bin().altitude().lower < above.low);
+    }
+
+    void noteDepth() {
+        InstalledTile::Depth& depth = _fit.extents.depth;
+        depth = depthAbove();
+        if (!_fit.bin.valid()) return;
+        if (!_isIndexed) depth.skirt = std::min(depth.skirt, _fit.skirt);
+        depth.low = std::max(depth.low, _fit.bin.bin().altitude().lower - _fit.skirt);
     }
 
     // Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
     [[nodiscard]] bool leavesExtents() const {
-        const InstalledTile* above = _from.parent;
-        while (above && !above->ordinal) above = above->parent.get();
+        const InstalledTile* const above = tileAbove();
         const core::GeodeticBin& own = (_fit.extents.isMeasured ? _fit.surface : _fit.bin).bin();
         if (!above || !above->extents.isMeasured || own.empty()) return false;
         const core::Interval &latitude = above->extents.bin.latitude(), &longitude = above->extents.bin.longitude();
@@ -353,6 +354,8 @@ private:
     const core::Interval _heights;
     const bool _isLeaf;
     const AnalyticBin _above;  // the nearest bin above that is stored with its tile
+    AnalyticBin _drawn;        // skirts included; of a tile in an index with all that is below it
+    bool _isIndexed = false;
     TileFit _fit;
 };
 

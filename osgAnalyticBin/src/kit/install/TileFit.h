@@ -31,9 +31,8 @@ struct FitSources {
 struct TileFit {
     AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
     AnalyticBin surface;  ///< what it draws by itself; not valid: not known
-    /// Metres that skirts hang below the bin, where they are to count: with SkirtUse::All, and on the outer border of a
-    /// database, where no neighbour stands before them. Assumes: descendants' skirts hang no longer than the tile's
-    /// own.
+    /// Metres that skirts hang below the bin; 0 for a tile in an index, whose bin holds them. Descendants' skirts are
+    /// taken to be no longer than the tile's own; a descendant with longer ones expands the bins above it.
     double skirt = 0.0;
     bool isScalable = false;
     /// Whether the bin holds heights that were declared alone, while OSG's sphere bounds what is loaded.

@@ -30,17 +30,13 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Edges of a mesh, in the order of TileSurface::edgeLow, as bits of MeshSkirts::edges.
-enum EdgeBit : std::uint8_t { kSouthEdge = 1, kEastEdge = 2, kNorthEdge = 4, kWestEdge = 8, kSkirtVertex = 16 };
+// Of a vertex: whether it lies on the border, and whether it is the lower one of two at the same place.
+enum Mark : std::uint8_t { kOnBorder = 1, kSkirtVertex = 2 };
 
-// The skirts of a mesh.
-struct MeshSkirts {
-    // For each vertex: the edges on which it lies, and whether it is the lower one of two at the same place.
-    std::vector<std::uint8_t> marks;
-    // Metres, of the deepest.
-    double depth = 0.0;
-    // Square metres, of the longest chord of the border that a skirt hangs from.
-    double borderChord2 = 0.0;
+// The skirts of a mesh, without its other triangles.
+struct Skirts {
+    SurfaceMesh mesh;
+    double length = 0.0;  // metres, of the longest
 };
 
 constexpr float kBorder = 1e-6f;  // of texture coordinates
@@ -52,12 +48,9 @@ constexpr double kShallowest = 1.0;  // metres on the earth
 // How far from straight down a skirt may hang: the geocentric vertical is 0.2 degrees off.
 constexpr double kPlumbCosine = 0.999;
 
-std::uint8_t edgesAt(const osg::Vec2& t) {
-    const unsigned int south = unsigned{t.y() <= kBorder} * kSouthEdge;
-    const unsigned int east = unsigned{t.x() >= 1.0f - kBorder} * kEastEdge;
-    const unsigned int north = unsigned{t.y() >= 1.0f - kBorder} * kNorthEdge;
-    const unsigned int west = unsigned{t.x() <= kBorder} * kWestEdge;
-    return static_cast<std::uint8_t>(south | east | north | west);
+std::uint8_t borderMark(const osg::Vec2& t) {
+    const auto isAtEnd = [](float x) { return unsigned{x <= kBorder} | unsigned{x >= 1.0f - kBorder}; };
+    return static_cast<std::uint8_t>((isAtEnd(t.x()) | isAtEnd(t.y())) * kOnBorder);
 }
 
 bool isInUnitSquare(const osg::Vec2& t) {
@@ -133,15 +126,9 @@ std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_
     return pairs;
 }
 
-// The triangles with a lower vertex, by their first index; `areSkirts` is false when one has a vertex off the border.
-struct HangingTriangles {
-    std::vector<std::uint32_t> first;
-    bool areSkirts = true;
-};
-
-HangingTriangles hangingTriangles(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
-    HangingTriangles hanging;
-    hanging.first.resize(mesh.triangles.size() / 3 + 1);
+// The triangles with a lower vertex. Returns: none when one of them has a vertex off the border.
+std::vector<std::uint32_t> hangingTriangles(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    std::vector<std::uint32_t> first(mesh.triangles.size() / 3 + 1);
     std::size_t count = 0;
     unsigned int bad = 0;
     // without branches, which would be mispredicted
@@ -151,12 +138,17 @@ HangingTriangles hangingTriangles(const SurfaceMesh& mesh, const std::vector<std
         const unsigned int c = marks[mesh.triangles[i + 2]];
         const unsigned int hangs = ((a | b | c) & kSkirtVertex) / kSkirtVertex;
         bad |= hangs & (unsigned{a == 0} | unsigned{b == 0} | unsigned{c == 0});
-        hanging.first[count] = static_cast<std::uint32_t>(i);
+        first[count] = static_cast<std::uint32_t>(i);
         count += hangs;
     }
-    hanging.first.resize(count);
-    hanging.areSkirts = bad == 0;
-    return hanging;
+    std::vector<std::uint32_t> triangles;
+    if (bad != 0) return triangles;
+    triangles.reserve(3 * count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto at = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first[k]);
+        triangles.insert(triangles.end(), at, at + 3);
+    }
+    return triangles;
 }
 
 void fold(const std::vector<Pair>& pairs, SurfaceMesh& mesh) {
@@ -167,35 +159,22 @@ void fold(const std::vector<Pair>& pairs, SurfaceMesh& mesh) {
     }
 }
 
-// Two sides of a folded triangle are chords of the border, or all are points.
-double longestChord2(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& folded) {
-    double longest2 = 0.0;
-    for (const std::uint32_t i : folded) {
-        const glm::dvec3 middle = mesh.vertex(mesh.triangles[i + 1]);
-        const glm::dvec3 before = mesh.vertex(mesh.triangles[i]) - middle;
-        const glm::dvec3 after = mesh.vertex(mesh.triangles[i + 2]) - middle;
-        longest2 = std::max(longest2, std::max(glm::dot(before, before), glm::dot(after, after)));
-    }
-    return longest2;
-}
-
 // Finds skirts as VirtualPlanetBuilder makes them: texture coordinates that run from 0 to 1 over the tile, and at
 // every vertex on its border a second one straight below, all equally deep, which only border vertices are joined to.
 // Folds them up: the lower vertices go to the upper ones, and with them all of the skirts to the border.
-// Returns: no marks, and the mesh unchanged, when it differs from that in any way: skirts, if any, then count as
-// surface.
-MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+// Returns: the skirts as they hang; none, and the mesh unchanged, when it differs from that in any way: skirts, if any,
+// then count as surface.
+Skirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (!mesh.texCoords) return {};
-    MeshSkirts skirts;
-    skirts.marks.resize(mesh.size());
+    std::vector<std::uint8_t> marks(mesh.size());
     bool inUnitSquare = true;
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         inUnitSquare &= isInUnitSquare(mesh.texCoords[i]);
-        skirts.marks[i] = edgesAt(mesh.texCoords[i]);
+        marks[i] = borderMark(mesh.texCoords[i]);
     }
     if (!inUnitSquare) return {};
     const DepthMeasure measure(ellipsoid);
-    const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks, measure);
+    const std::vector<Pair> pairs = pairsOf(mesh, marks, measure);
     if (pairs.empty()) return {};
 
     double shallowest2 = std::numeric_limits<double>::infinity();
@@ -206,16 +185,19 @@ MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
         plumb &= depth2 > 0.0;
         shallowest2 = std::min(shallowest2, depth2);
         deepest2 = std::max(deepest2, depth2);
-        skirts.marks[pair.lower] |= kSkirtVertex;
+        marks[pair.lower] |= kSkirtVertex;
     }
-    skirts.depth = std::sqrt(deepest2);
     const double rounding = kDepthRounding * core::earthScale(ellipsoid);
-    const bool equal = skirts.depth <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + rounding;
+    const bool equal = std::sqrt(deepest2) <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + rounding;
     if (!plumb || !equal) return {};
-    const HangingTriangles hanging = hangingTriangles(mesh, skirts.marks);
-    if (!hanging.areSkirts) return {};
+    Skirts skirts{{}, std::sqrt(deepest2)};
+    skirts.mesh.triangles = hangingTriangles(mesh, marks);
+    if (skirts.mesh.triangles.empty()) return {};
+    skirts.mesh.x = mesh.x;
+    skirts.mesh.y = mesh.y;
+    skirts.mesh.z = mesh.z;
+    dropUnusedVertices(skirts.mesh);
     fold(pairs, mesh);
-    skirts.borderChord2 = longestChord2(mesh, hanging.first);
     return skirts;
 }
 
@@ -262,37 +244,33 @@ void addBox(const osg::BoundingBoxd& box, const osg::Matrixd& localToEcef, Surfa
     for (const unsigned int corner : kFaces) mesh.triangles.push_back(first + corner);
 }
 
-constexpr std::size_t kEdges = 4;
-
-std::array<double, kEdges> lowestOnEdges(const std::vector<std::uint8_t>& marks, const std::vector<double>& altitudes) {
-    std::array<double, kEdges> lows;
-    lows.fill(std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-        if (marks[i] == 0) continue;
-        for (std::size_t edge = 0; edge < kEdges; ++edge)
-            if ((static_cast<unsigned int>(marks[i]) >> edge) & 1u) lows[edge] = std::min(lows[edge], altitudes[i]);
-    }
-    return lows;
+// The rounding of what is drawn in a bin.
+double drawingErrorIn(const core::GeodeticBin& bin, const SurfaceMesh& mesh, const osg::Matrixd& localToEcef,
+                      const core::Ellipsoid& ellipsoid) {
+    return ellipsoid.isPlane() ? drawingErrorOf(largestCoordinate(bin))
+                               : std::max(drawingError(ellipsoid), drawingErrorOf(farthestVertex(mesh, localToEcef)));
 }
 
-// Metres that a chord of this length, squared, sags at most below its lower end.
-double chordSag(double length2, const core::Ellipsoid& ellipsoid) {
-    const double smallestRadius = core::smallestCurvatureRadius(ellipsoid) + lowestMesh(ellipsoid);
-    return length2 / (8.0 * smallestRadius);
-}
-
-// Where skirts do not tell which vertices are on an edge, all may be.
-std::array<double, kEdges> edgeLows(const core::MeshBounds& bounds, const MeshSkirts& skirts, double borderSag) {
-    const double low = bounds.bin().altitude().lower, error = bounds.altitudeError() + borderSag;
-    std::array<double, kEdges> lows = lowestOnEdges(skirts.marks, bounds.altitudes());
-    for (double& edge : lows) edge = std::isfinite(edge) ? std::max(edge - error, low) : low;
-    return lows;
+// Adds the skirts of a drawable's mesh to its surface.
+TileSurface withSkirts(const Skirts& skirts, const TileSurface& surface, const osg::Matrixd& localToEcef,
+                       const core::Ellipsoid& ellipsoid) {
+    thread_local PerThread<core::MeshBounds> kept;
+    core::MeshBounds& bounds = *kept;
+    bounds.find(ellipsoid, skirts.mesh);
+    if (bounds.bin().empty()) return {};
+    const core::Interval altitude = surface.bin.bin().altitude();
+    TileSurface result = surface;
+    result.skirt = std::max(skirts.length, altitude.lower - bounds.bin().altitude().lower);
+    result.bin.expandBy(AnalyticBin(
+        bounds.bin(), drawingErrorIn(bounds.bin(), skirts.mesh, localToEcef, ellipsoid) + bounds.axisError()));
+    result.bin.setBin(result.bin.bin().withAltitude(altitude));
+    return result;
 }
 
 // The surface of one drawable's mesh, whose skirts are folded up. Requires: at least one triangle, indices
 // within the vertices.
 TileSurface meshSurface(SurfaceMesh& mesh, const osg::Matrixd& localToEcef, const core::Ellipsoid& ellipsoid) {
-    const MeshSkirts skirts = foldSkirts(mesh, ellipsoid);
+    const Skirts skirts = foldSkirts(mesh, ellipsoid);
     dropUnusedVertices(mesh);
     // keeps its memory: fresh pages from the system for every tile cost a third of the work
     thread_local PerThread<core::MeshBounds> kept;
@@ -303,14 +281,10 @@ TileSurface meshSurface(SurfaceMesh& mesh, const osg::Matrixd& localToEcef, cons
     if (bounds.bin().empty() || !isTerrain) return {};
 
     TileSurface result;
-    const double error = ellipsoid.isPlane()
-                             ? drawingErrorOf(largestCoordinate(bounds.bin()))
-                             : std::max(drawingError(ellipsoid), drawingErrorOf(farthestVertex(mesh, localToEcef)));
-    result.bin = AnalyticBin(bounds.bin(), error + bounds.axisError());
+    result.bin =
+        AnalyticBin(bounds.bin(), drawingErrorIn(bounds.bin(), mesh, localToEcef, ellipsoid) + bounds.axisError());
     result.bin.setSag(bounds.sag());
-    result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
-    result.skirt = skirts.depth;
-    return result;
+    return skirts.mesh.triangles.empty() ? result : withSkirts(skirts, result, localToEcef, ellipsoid);
 }
 
 // Unites the surfaces of the parts of a tile. A part that cannot be told makes the whole so.
@@ -379,8 +353,6 @@ private:
         if (part.isScalable != _result.isScalable) return giveUp();
         _result.bin.expandBy(part.bin);
         _result.skirt = std::max(_result.skirt, part.skirt);
-        for (std::size_t i = 0; i < part.edgeLow.size(); ++i)
-            _result.edgeLow[i] = std::min(_result.edgeLow[i], part.edgeLow[i]);
     }
 
     const osg::EllipsoidModel& _model;

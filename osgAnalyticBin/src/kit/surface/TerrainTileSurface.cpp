@@ -39,13 +39,10 @@ constexpr double kPlacing = 0.01;     // metres on the earth: heights as floats,
 struct HeightRange {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
-    // Lowest posts of the first row, last column, last row and first column. Where posts are missing the mesh has
-    // other edges than its rectangle: `low` then.
-    std::array<double, 4> edgeLow{};
     // No valid post is infinite or not a number.
     bool isFinite = true;
 
-    [[nodiscard]] static HeightRange flat() { return {0.0, 0.0, {}, true}; }
+    [[nodiscard]] static HeightRange flat() { return {0.0, 0.0, true}; }
 };
 
 // Minimum, maximum and finiteness of floats, in lanes that the compiler turns into vectors.
@@ -86,12 +83,6 @@ struct FloatRange {
     }
 };
 
-double lowestOf(const float* values, std::size_t count, std::size_t stride) {
-    float low = values[0];
-    for (std::size_t i = 1; i < count; ++i) low = std::min(low, values[i * stride]);
-    return static_cast<double>(low);
-}
-
 void include(HeightRange& range, float value) {
     range.isFinite &= std::isfinite(value);
     range.low = std::min(range.low, static_cast<double>(value));
@@ -101,10 +92,7 @@ void include(HeightRange& range, float value) {
 HeightRange rangeOfAll(const float* values, std::size_t columns, std::size_t rows) {
     FloatRange floats;
     floats.add(values, columns * rows);
-    HeightRange range{floats.lowest(), floats.highest(), {}, floats.isFinite()};
-    range.edgeLow = {lowestOf(values, columns, 1), lowestOf(values + columns - 1, rows, columns),
-                     lowestOf(values + columns * (rows - 1), columns, 1), lowestOf(values, rows, columns)};
-    return range;
+    return {floats.lowest(), floats.highest(), floats.isFinite()};
 }
 
 // Cost: one pass over the floats, or as many virtual calls where the layer is of another class or picks its posts.
@@ -119,7 +107,6 @@ HeightRange heightRange(const osgTerrain::Layer& layer, const osg::HeightField* 
             if (layer.getValidValue(column, row, value)) include(range, value);
         }
     }
-    range.edgeLow.fill(range.low);
     return range;
 }
 
@@ -223,16 +210,6 @@ double marginOf(double reach, const core::Ellipsoid& ellipsoid) {
     return kVertexRounding * reach + kPlacing * core::earthScale(ellipsoid);
 }
 
-// Edges in the order of TileSurface::edgeLow.
-std::array<double, 4> edgeLows(const HeightRange& heights, const osgTerrain::Locator& locator,
-                               const core::GeodeticGridBounds& bounds) {
-    std::array<double, 4> lows = heights.edgeLow;
-    if (locator.getTransform()(0, 0) < 0.0) std::swap(lows[1], lows[3]);
-    if (locator.getTransform()(1, 1) < 0.0) std::swap(lows[0], lows[2]);
-    for (std::size_t i = 0; i < lows.size(); ++i) lows[i] -= bounds.edgeSag()[i];
-    return lows;
-}
-
 }  // namespace
 
 bool isDrawnByOsg(const osgTerrain::TerrainTile& tile) {
@@ -271,22 +248,21 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     }
     if (!isOnTheGlobe(grid)) return {};
 
-    const double highest = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
-    const core::GeodeticGridBounds bounds(model, grid, highest);
-    if (!bounds.isKnown()) return {};
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
+    const double highest = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
+    const core::GeodeticGridBounds bounds(model, grid, highest, std::max(0.0, skirt));
+    if (!bounds.isKnown()) return {};
 
     if (!(heights.low - bounds.sag() > -core::deepestPost(model))) return {};
 
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
-    const double reach = reachOf(tile, grid, model);
+    const double reach = reachOf(tile, grid, model) + std::abs(skirt);
     const double margin = model.isPlane() ? marginInMap(grid, altitude, reach) : marginOf(reach, model);
     surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid.longitude, altitude), margin);
     surface.bin.setSag(bounds.sag());
-    surface.edgeLow = edgeLows(heights, *masterLocator(tile), bounds);
     surface.skirt = std::max(0.0, skirt);
     surface.isScalable = true;
     return surface;

@@ -8,7 +8,6 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFrame.h>
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
@@ -21,6 +20,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,11 +83,20 @@ public:
         MoreThanMesh = 1u << 10,
     };
 
+    /// How deep the bins of a tile and of all tiles above it are.
+    struct Depth {
+        /// Metres that they count for skirts below them, at least. Infinity: all of them hold the skirts of what is
+        /// below already.
+        double skirt = std::numeric_limits<double>::infinity();
+        /// Metres: they reach down to there at vertical scale 1, skirts included.
+        double low = -std::numeric_limits<double>::infinity();
+    };
+
     /// Where a tile lies, for the tiles below it.
     struct Extents {
         core::GeodeticBin bin;
         bool isMeasured = false;  ///< they are those of its mesh, and finer tiles may leave them
-        core::TileEdges edges;
+        Depth depth;
     };
 
     /// `above`, `number`: see parent and ordinal.

@@ -128,7 +128,7 @@ TEST(CullMethod, PlainNamesCullByPlanesAloneAndSuffixesAddTheirTests) {
     } cases[] = {{"", HorizonUse::Off, false, OcclusionUse::Off, "horizon=-5"},
                  {"+horizon", HorizonUse::Declared, false},
                  {"+edges", HorizonUse::Off, true},
-                 {"+horizon+edges", HorizonUse::Given, true, OcclusionUse::Off, "horizon=-5,skirts=all"},
+                 {"+horizon+edges", HorizonUse::Given, true, OcclusionUse::Off, "horizon=-5,expiry=7"},
                  {"+horizon+edges+occlusion", HorizonUse::Declared, true, OcclusionUse::On},
                  {"+horizon+occlusion", HorizonUse::Declared, false, OcclusionUse::On}};
     for (const std::string base : {"quadratic", "exact"}) {
@@ -140,7 +140,7 @@ TEST(CullMethod, PlainNamesCullByPlanesAloneAndSuffixesAddTheirTests) {
             EXPECT_EQ(options.method, base == "exact" ? Method::Exact : Method::Quadratic);
             if (each.horizon == HorizonUse::Given) {
                 EXPECT_EQ(options.horizon, -5.0);
-                EXPECT_EQ(options.skirts, SkirtUse::All);
+                EXPECT_EQ(options.expiry, 7.0);
             }
         }
     }
@@ -148,7 +148,7 @@ TEST(CullMethod, PlainNamesCullByPlanesAloneAndSuffixesAddTheirTests) {
     CullOptions defaults;
     defaults.index = IndexUse::On;  // what becomes complete meanwhile would change the figures
     EXPECT_EQ(optionsOf("bins"), defaults);
-    EXPECT_EQ(optionsOf("bins", "skirts=all").skirts, SkirtUse::All);
+    EXPECT_EQ(optionsOf("bins", "expiry=7").expiry, 7.0);
     EXPECT_EQ(optionsOf("bins", "occlusion=off").occlusion, OcclusionUse::Off);
     EXPECT_EQ(optionsOf("quadratic+horizon", "edges=on,occlusion=on").occlusion, OcclusionUse::Off);
     EXPECT_TRUE(cullMethodFromName("bins").usesBins);

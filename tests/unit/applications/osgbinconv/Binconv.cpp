@@ -73,38 +73,16 @@ void writeRoot(const std::string& path, osg::Node& tile) {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 400;
-
-// Skirts stand upright, or nearly so where coarse meshes lean.
-bool isUpright(const EcefTriangle& t) {
-    constexpr double kSteepest = 0.25;
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double length = glm::length(normal);
-    return length == 0.0 || std::abs(glm::dot(normal / length, glm::normalize(t[0]))) < kSteepest;
-}
-
-std::vector<EcefTriangle> surfaceOf(const FoundTile& tile) {
+std::vector<EcefTriangle> trianglesOf(const FoundTile& tile) {
     std::vector<EcefTriangle> result;
     for (const auto& mesh : tile.meshes) {
         const auto* terrain = dynamic_cast<const osgTerrain::TerrainTile*>(mesh.get());
         const DrawnTriangles drawn =
             terrain ? drawnTriangles(*terrain, 1.0f) : drawnTriangles(*mesh, tile.frame.localToEcef);
         result.insert(result.end(), drawn.surface.begin(), drawn.surface.end());
+        result.insert(result.end(), drawn.skirts.begin(), drawn.skirts.end());
     }
-    result.erase(std::remove_if(result.begin(), result.end(), isUpright), result.end());
     return result;
-}
-
-// Whether a corner is on the edge of the tile; a hundred-thousandth of its size is near enough.
-bool isAlongEdge(const EcefTriangle& triangle, const core::GeodeticBin& bin) {
-    const double near = 1e-5 * std::max(bin.latitude().width(), bin.longitude().width());
-    const auto isEnd = [near](double angle, const core::Interval& range) {
-        return std::abs(angle - range.lower) < near || std::abs(angle - range.upper) < near;
-    };
-    return std::any_of(triangle.begin(), triangle.end(), [&](const glm::dvec3& corner) {
-        const core::Geodetic g = ellipsoidOfTests().toGeodetic(corner);
-        return isEnd(g.latitude, bin.latitude()) || isEnd(g.longitude, bin.longitude());
-    });
 }
 
 DrawnTile drawn(const FoundTile& tile) {
@@ -120,16 +98,7 @@ DrawnTile drawn(const FoundTile& tile) {
     result.low = bin.bin().altitude().lower;
     result.high = bin.bin().altitude().upper;
     result.fingerprint = surfaceFingerprint(*tile.meshes.front(), tile.frame.localToEcef);
-    const std::vector<EcefTriangle> all = surfaceOf(tile);
-    const std::size_t step = all.size() / kMostTriangles + 1;
-    std::vector<EcefTriangle> some, alongEdges;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i % step == 0) some.push_back(all[i]);
-        if (isAlongEdge(all[i], bin.bin())) alongEdges.push_back(all[i]);
-    }
-    result.samples = samplesOf(some, 2);
-    for (const glm::dvec3& point : samplesOf(alongEdges, 2))
-        result.edgeSamples.push_back(ellipsoidOfTests().toGeodetic(point));
+    result.samples = samplesOf(trianglesOf(tile), 1);
     return result;
 }
 
@@ -161,10 +130,6 @@ private:
 };
 
 }  // namespace
-
-bool DrawnTile::isAbove(std::size_t self, const DrawnTile& other) const {
-    return std::find(other.ancestors.begin(), other.ancestors.end(), self) != other.ancestors.end();
-}
 
 core::Ellipsoid ellipsoidOfTests() {
     return {osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR};

@@ -72,11 +72,8 @@ struct DrawnTile {
     double low = 0.0;
     double high = 0.0;
     std::uint64_t fingerprint = 0;
-    /// Points of what it draws itself, skirts left out: some all over, and all along its edges.
+    /// All vertices that it draws itself, those of skirts included.
     std::vector<glm::dvec3> samples;
-    std::vector<core::Geodetic> edgeSamples;
-
-    [[nodiscard]] bool isAbove(std::size_t self, const DrawnTile& other) const;
 };
 
 /// All tiles of a local database, each file read by its name.

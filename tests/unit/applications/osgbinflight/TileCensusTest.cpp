@@ -48,7 +48,7 @@ TEST(TileCensus, CountsTheTilesOfTheGlobeAndKnowsTheBinsThatTheKitInstalled) {
     for (const DrawnTile& tile : census.tiles) EXPECT_FALSE(tile.bin.valid()) << tile.key;
 
     CullOptions options;
-    options.skirts = SkirtUse::All;
+    options.horizonUse = HorizonUse::Off;
     ASSERT_EQ(installBins(*globe, options), 32U);
     const Census withBins = censusOf(*globe);
     ASSERT_EQ(withBins.tiles.size(), 32U);

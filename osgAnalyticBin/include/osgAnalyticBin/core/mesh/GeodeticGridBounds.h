@@ -6,7 +6,6 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
-#include <array>
 #include <cstddef>
 
 namespace osgAnalyticBin::core {
@@ -29,17 +28,19 @@ struct GeodeticGrid {
 /// and a chord between two posts of one parallel runs poleward of it.
 /// Guarantee: where isKnown(), in any unit, for posts at altitudes within +-`reach`, every point of every triangle, and
 /// the rounded posts themselves up to 1.6e-14 equatorial radii (1e-7 m on the earth), has a latitude in latitude(), a
-/// longitude in the grid's, and an altitude between the lowest post's less sag() and the highest post's;
+/// longitude in the grid's, and an altitude between the lowest post's less sag() and the highest post's; the same
+/// of the skirts, whose lower ends are posts, too;
 /// tests: GeodeticGridBounds.*, PlanetMeshes.*.
 /// Cost: some ten trigonometric functions.
 /// Source: doc/theory/derivation.md, section 10.
 class GeodeticGridBounds final {
 public:
-    /// `reach`: metres, the largest altitude of a post either way. Requires: 0 or more (asserted).
-    GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept;
+    /// `reach`: metres, the largest altitude of a post either way; `skirt`: metres by which skirts hang down from the
+    /// posts of the border, along the normals. Requires: 0 or more (asserted).
+    GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach, double skirt = 0.0) noexcept;
 
-    /// True where |e2| is below 0.1 and the reach below a tenth of the radii, and in a map. Any other grid has no
-    /// bounds, its sags are infinite, and its tile must not be culled.
+    /// True where |e2| is below 0.1, the reach below a tenth of the radii, and the skirt below a third, and in a map.
+    /// Any other grid has no bounds, its sag is infinite, and its tile must not be culled.
     [[nodiscard]] bool isKnown() const noexcept { return _isKnown; }
 
     /// Radians: the grid's latitudes, and what chords run poleward of them.
@@ -48,13 +49,9 @@ public:
     /// Metres, of any triangle of the grid.
     [[nodiscard]] double sag() const noexcept { return _sag; }
 
-    /// Metres, of the chords along the south, east, north and west edge.
-    [[nodiscard]] const std::array<double, 4>& edgeSag() const noexcept { return _edgeSag; }
-
 private:
     Interval _latitude;
     double _sag = 0.0;
-    std::array<double, 4> _edgeSag{};
     bool _isKnown = true;
 };
 
