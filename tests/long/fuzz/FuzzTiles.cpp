@@ -18,6 +18,7 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <kit/CullFixture.h>
+#include <support/WrittenAndRead.h>
 
 using namespace osgAnalyticBin;
 using namespace osgAnalyticBin::test;

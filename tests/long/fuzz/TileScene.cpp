@@ -9,14 +9,12 @@
 #include <osg/PositionAttitudeTransform>
 #include <osg/Switch>
 #include <osg/ValueObject>
-#include <osgDB/Registry>
 #include <osgTerrain/Layer>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 #include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
@@ -299,18 +297,6 @@ osg::ref_ptr<osg::Node> makeFile(Bytes& bytes, const ScenePlace& place, bool isR
         globe->setEllipsoidModel(new osg::EllipsoidModel);
     for (int i = 1 + bytes.below(3); i > 0; --i) root->addChild(maker.make(place, 0));
     return root;
-}
-
-osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& scene, bool asText) {
-    const char* const extension = asText ? "osgt" : "osgb";
-    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
-    if (!plugin) return nullptr;
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
-    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
-    std::stringstream stream;
-    if (!plugin->writeNode(scene, stream, options).success()) return nullptr;
-    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
-    return result.takeNode();
 }
 
 SceneTraits traitsOf(osg::Node& scene) {

@@ -23,9 +23,6 @@ struct ScenePlace {
 /// and so on, themselves too.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeFile(Bytes& bytes, const ScenePlace& place, bool isRoot);
 
-/// Writes a scene in OSG's binary format, or as text, and reads it back. Returns: null where OSG's own reader fails.
-[[nodiscard]] osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& scene, bool asText);
-
 /// Whether nothing in the scene makes OSG itself read where there is no memory, or number that its text cannot hold.
 struct SceneTraits {
     bool hasWildIndices = false;

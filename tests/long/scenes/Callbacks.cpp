@@ -3,13 +3,39 @@
 
 #include "Callbacks.h"
 
+#include "Parts.h"
 #include "States.h"
+
+#include <osgAnalyticBin/Declarations.h>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
 std::string complaint;
+std::vector<std::function<void()>> undoing;
+
+/// Where a visitor is, and what it has decided there.
+struct Whereabouts {
+    explicit Whereabouts(osgUtil::CullVisitor& visitor)
+        : path(visitor.getNodePath()),
+          states(visitor.getCurrentStateGraph()),
+          undecided(visitor.getCurrentCullingSet().getFrustum().getCurrentMask()) {}
+    bool operator==(const Whereabouts& other) const {
+        return path == other.path && states == other.states && undecided == other.undecided;
+    }
+    /// Whether each node of the path is a child of the one before.
+    [[nodiscard]] bool isConnected() const {
+        const auto isApart = [](osg::Node* above, osg::Node* below) {
+            return !above->asGroup() || !above->asGroup()->containsNode(below);
+        };
+        return std::adjacent_find(path.begin(), path.end(), isApart) == path.end();
+    }
+
+    const osg::NodePath path;
+    const osgUtil::StateGraph* const states;
+    const osg::Polytope::ClippingMask undecided;
+};
 
 /// What osg::clone() makes of a class by its own copy constructor.
 template <class Self, class Base>
@@ -31,10 +57,19 @@ public:
     explicit Acting(Action action = {}) : _action(std::move(action)) {}
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        _action ? _action(*this, node, nv) : static_cast<void>(traverse(node, nv));
+        if (!nv->asCullVisitor()) return act(node, nv);
+        const Whereabouts before(*nv->asCullVisitor());
+        if (!before.isConnected() || before.path.back() != node) complaint = "a callback is run away from its node";
+        act(node, nv);
+        if (!(Whereabouts(*nv->asCullVisitor()) == before))
+            complaint = "a visitor leaves a node otherwise than it came";
     }
 
 private:
+    void act(osg::Node* node, osg::NodeVisitor* nv) {
+        _action ? _action(*this, node, nv) : static_cast<void>(traverse(node, nv));
+    }
+
     Action _action;
 };
 
@@ -126,6 +161,23 @@ Acting* makeMasker(osg::Node::NodeMask mask) {
     });
 }
 
+// Changes the next tile of the row when the traversal comes to its node. Variants: masks it; masks its mesh; shows it.
+Acting* makeMeddler(const Part& part) {
+    TileKey next = part.tile;
+    ++next.column;
+    const std::string name = nodeName(part.variant == 1 ? Hook::Own : Hook::Tile, next);
+    Acting* const meddler = new Acting([=](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
+        const osg::ref_ptr<osg::Node> tile = isCull(*nv) ? findNode(*nv->getNodePath().front(), name) : nullptr;
+        if (tile) {
+            undoing.push_back([tile, mask = tile->getNodeMask()] { tile->setNodeMask(mask); });
+            tile->setNodeMask(part.variant == 2 ? ~0u : 0);
+        }
+        self.traverse(node, nv);
+    });
+    setTraversesAlways(*meddler);
+    return meddler;
+}
+
 // Takes itself off when it has run.
 Acting* makeOneShot() {
     return new Acting([](Acting& self, osg::Node* node, osg::NodeVisitor* nv) {
@@ -201,6 +253,8 @@ void addCallback(const Part& part, osg::Node& node) {
             return hang(makeStatePusher(part), isNested, node);
         case PartKind::Masks:
             return addMasker(part, isNested, node);
+        case PartKind::Meddles:
+            return hang(makeMeddler(part), isNested, node);
         case PartKind::BoundCallback:
             return setBoundCallback(static_cast<OwnBound::Kind>(part.variant), node);
         case PartKind::NoBoundCallback:
@@ -219,6 +273,10 @@ void CastingGroup::traverse(osg::NodeVisitor& nv) {
             complaint = "the handler of requests is no DatabasePager";
     }
     osg::Group::traverse(nv);
+}
+
+void undoMeddling() {
+    for (const auto& undo : std::exchange(undoing, {})) undo();
 }
 
 std::string takeComplaint() {

@@ -30,7 +30,10 @@ public:
     void traverse(osg::NodeVisitor& nv) override;
 };
 
-/// Returns: what a CastingGroup has seen since the last call, else nothing.
+/// Undoes what callbacks of the kind Meddles did in the last traversal.
+void undoMeddling();
+
+/// Returns: what a CastingGroup or a callback has seen since the last call that OSG shows to none, else nothing.
 [[nodiscard]] std::string takeComplaint();
 
 }  // namespace osgAnalyticBin::test

@@ -75,6 +75,7 @@ bool altersDrawing(PartKind kind) {
         case PartKind::LeavesOut:
         case PartKind::PushesState:
         case PartKind::Masks:
+        case PartKind::Meddles:
         case PartKind::Vanish:
         case PartKind::DrawableCull:
         case PartKind::DrawableDraw:

@@ -117,6 +117,7 @@ enum class PartKind {
     LeavesOut,  // cull callbacks
     PushesState,
     Masks,
+    Meddles,  // with tiles that the traversal has not come to
     Vanish,   // see Parts.cpp
     OneShot,  // an update callback that takes itself off
     BoundCallback,

@@ -12,6 +12,8 @@
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/ValidDataOperator>
 
+#include <support/WrittenAndRead.h>
+
 namespace osgAnalyticBin::test {
 
 namespace {
@@ -273,6 +275,7 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::LeavesOut:
         case PartKind::PushesState:
         case PartKind::Masks:
+        case PartKind::Meddles:
         case PartKind::OneShot:
         case PartKind::BoundCallback:
         case PartKind::NoBoundCallback:
@@ -334,19 +337,11 @@ void removePart(const Part& part, osg::Node& scene) {
     while (model->getNumParents() > 0) model->getParent(0)->removeChild(model.get());
 }
 
-osg::ref_ptr<osg::Group> writtenAndRead(const osg::Group& scene, bool asText) {
-    const char* const extension = asText ? "osgt" : "osgb";
-    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
-    if (!plugin) throw std::runtime_error("no plugin for osgb");
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
-    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
-    std::stringstream stream;
-    if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
-    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
-    osg::Group* const loaded = result.getNode() ? result.getNode()->asGroup() : nullptr;
-    if (!loaded) throw std::runtime_error("the scene cannot be loaded");
-    keepNearAndFar(scene, *loaded);
-    return loaded;
+osg::ref_ptr<osg::Group> savedAndLoaded(const osg::Group& scene, bool asText) {
+    const osg::ref_ptr<osg::Node> loaded = writtenAndRead(scene, asText);
+    if (!loaded || !loaded->asGroup()) throw std::runtime_error("the scene cannot be saved and loaded");
+    keepNearAndFar(scene, *loaded->asGroup());
+    return loaded->asGroup();
 }
 
 osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {

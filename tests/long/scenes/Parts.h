@@ -39,7 +39,7 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
 void removePart(const Part& part, osg::Node& scene);
 
 /// The scene as it comes back from a file, .osgt or .osgb.
-[[nodiscard]] osg::ref_ptr<osg::Group> writtenAndRead(const osg::Group& scene, bool asText);
+[[nodiscard]] osg::ref_ptr<osg::Group> savedAndLoaded(const osg::Group& scene, bool asText);
 
 /// `variant`: what is copied, and what is shared.
 [[nodiscard]] osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant);

@@ -71,6 +71,7 @@ public:
         CullView view = viewOf(spec);
         view.states = viewStates(painter);
         _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
+        undoMeddling();
         root->getBound();
         _recorder->setPainter(painter);
         _recorder->isViewPlain = isHarmless(*_ownStates);
@@ -84,7 +85,8 @@ public:
 
     /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit draws tiles directly. Returns:
     /// nullopt if it gets a drawable more often than the derived visitor that `recorded` is of, unless `mayGetMore`, if
-    /// it gets one as often but in another way, or if it gets the same drawables with other near and far planes.
+    /// it gets one as often but in another way, if it gets the same drawables with other near and far planes, or if
+    /// levels that it draws are not stamped.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded, bool mayGetMore) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
@@ -92,10 +94,16 @@ public:
             visitor.setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
             CullView view = viewOf(spec);
             view.states = states;
+            undoMeddling();
             return cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime());
         };
-        const CullResult here = culledBy(*_plain), there = culledBy(*_derived);
-        const std::vector<Leaf> plain = leavesIn(*here.stage), derived = leavesIn(*there.stage);
+        forgetStamps();
+        const CullResult here = culledBy(*_plain);
+        const std::vector<Leaf> plain = leavesIn(*here.stage);
+        const bool isStamped = areStamped(plain, stamp);
+        const CullResult there = culledBy(*_derived);
+        const std::vector<Leaf> derived = leavesIn(*there.stage);
+        if (!isStamped) return std::nullopt;
         if (withoutOthers(plain, derived) != withoutOthers(derived, plain)) return std::nullopt;
         if (!mayGetMore && hasMore(plain, derived)) return std::nullopt;
         if (plain == derived && here.projection != there.projection) return std::nullopt;
@@ -137,6 +145,36 @@ private:
     struct DerivedVisitor : osgUtil::CullVisitor {
         DerivedVisitor() { setDrawsAsCullVisitor(*this); }
     };
+
+    void forgetStamps() {
+        walk(*root, [](osg::Node& node) {
+            auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+            for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
+                paged->setFrameNumberOfLastTraversal(0);
+                paged->setTimeStamp(i, 0.0);
+                paged->setFrameNumber(i, 0);
+            }
+            return true;
+        });
+    }
+
+    // Whether levels above what is drawn say so, as osg::PagedLOD does it: others grow old, and files with them.
+    static bool areStamped(const std::vector<Leaf>& leaves, const osg::FrameStamp& stamp) {
+        const auto isStamped = [&](const Leaf& leaf) {
+            const osg::Node* node = leaf.drawable;
+            for (; node->getNumParents() == 1; node = node->getParent(0)) {
+                const auto* const paged = dynamic_cast<const osg::PagedLOD*>(node->getParent(0));
+                if (!paged) continue;
+                const unsigned int level = paged->getChildIndex(node);
+                if (paged->getFrameNumberOfLastTraversal() != stamp.getFrameNumber() ||
+                    paged->getFrameNumber(level) != stamp.getFrameNumber() ||
+                    paged->getTimeStamp(level) != stamp.getReferenceTime())
+                    return false;
+            }
+            return true;
+        };
+        return std::all_of(leaves.begin(), leaves.end(), isStamped);
+    }
 
     // How much more often one visitor gets a drawable than the other.
     static std::map<const osg::Drawable*, int> surplusOf(const std::vector<Leaf>& leaves,
@@ -401,13 +439,14 @@ private:
             case PartKind::LeavesOut:
             case PartKind::PushesState:
             case PartKind::Masks:
+            case PartKind::Meddles:
             case PartKind::OneShot:
                 // Copies of a globe may share its callbacks: what is nested in one of ours then runs on all of them.
                 if (!_sharesCallbacks) applyToBoth(part);
                 break;
             case PartKind::SaveAndLoad:
-                _without.root = writtenAndRead(*_without.root, part.variant % 2 == 1);
-                _with.root = writtenAndRead(*_with.root, part.variant % 2 == 1);
+                _without.root = savedAndLoaded(*_without.root, part.variant % 2 == 1);
+                _with.root = savedAndLoaded(*_with.root, part.variant % 2 == 1);
                 _wasSaved = true;
                 break;
             default:

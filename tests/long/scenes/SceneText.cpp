@@ -15,21 +15,20 @@ using Words = std::vector<const char*>;
 
 // In the order of the enumerators.
 const Words& wordsOf(PartKind) {
-    static const Words words{"switch",         "sequence",       "lod",           "paged",
-                             "proxy",          "group",          "turned",        "instance",
-                             "again",          "moving-tiles",   "caster",        "group-tree",
-                             "hole",           "reversed-faces", "narrow",        "draws-nothing",
-                             "adding",         "objects",        "equal-names",   "culling-off",
-                             "user-cull",      "user-update",    "drawable-bin",  "outline",
-                             "fill",           "state",          "leaves-out",    "pushes-state",
-                             "masks",          "vanish",         "one-shot",      "bound",
-                             "no-bound",       "drawable-cull",  "drawable-draw", "drawable-update",
-                             "drawable-bound", "raise",          "tower",         "vehicle",
-                             "sign",           "unculled",       "traffic",       "camera",
-                             "visitor-leaves", "pick",           "toggle",        "set-options",
-                             "install",        "uninstall",      "set-scale",     "clone",
-                             "save-and-load",  "expire",         "move",          "shove",
-                             "tile-data"};
+    static const Words words{// built in
+                             "switch", "sequence", "lod", "paged", "proxy", "group", "turned", "instance", "again",
+                             "moving-tiles", "caster", "group-tree",
+                             // what tiles draw, and files hold
+                             "hole", "reversed-faces", "narrow", "draws-nothing", "adding", "objects", "equal-names",
+                             // on nodes
+                             "culling-off", "user-cull", "user-update", "drawable-bin", "outline", "fill", "state",
+                             "leaves-out", "pushes-state", "masks", "meddles", "vanish", "one-shot", "bound",
+                             "no-bound", "drawable-cull", "drawable-draw", "drawable-update", "drawable-bound", "raise",
+                             // models, cameras, visitors
+                             "tower", "vehicle", "sign", "unculled", "traffic", "camera", "visitor-leaves", "pick",
+                             // events
+                             "toggle", "set-options", "install", "uninstall", "set-scale", "clone", "save-and-load",
+                             "expire", "move", "shove", "tile-data"};
     return words;
 }
 const Words& wordsOf(Theme) {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Node>
+#include <osgDB/Options>
+#include <osgDB/Registry>
+
+#include <sstream>
+
+namespace osgAnalyticBin::test {
+
+/// The scene as it comes back from a file, .osgt or .osgb. Returns: nullptr when it cannot be written or read.
+[[nodiscard]] inline osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& scene, bool asText) {
+    osgDB::ReaderWriter* const plugin =
+        osgDB::Registry::instance()->getReaderWriterForExtension(asText ? "osgt" : "osgb");
+    if (!plugin) return nullptr;
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
+    std::stringstream stream;
+    if (!plugin->writeNode(scene, stream, options).success()) return nullptr;
+    return plugin->readNode(stream, options).takeNode();
+}
+
+}  // namespace osgAnalyticBin::test
