@@ -93,27 +93,6 @@ TEST(Selection, KnowsTheStatesAboveWhereItIsMadeAnew) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
-// Tiles below a tree of plain groups.
-osg::ref_ptr<osg::Node> makeTree(double south, double west, double height, double width, int levels) {
-    if (levels == 0)
-        return makePaged(makeMeshTile(extentsDeg(south, south + height, west, west + width), 0.0), "no.osgb");
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    for (const double y : {south, south + height / 2})
-        for (const double x : {west, west + width / 2})
-            group->addChild(makeTree(y, x, height / 2, width / 2, levels - 1));
-    return group;
-}
-
-TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
-    const auto globe = makeGlobe({makeTree(-90.0, -180.0, 180.0, 360.0, 4)});
-    ASSERT_EQ(installBins(*globe, optionsOf("horizon=off")), 256u);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    (void)cull(*globe, downTo(20.0, 30.0), *visitor);
-    const BinCounts counts = BinStatistics::of(*visitor).getCounts();
-    EXPECT_GT(counts.tested, 0u);
-    EXPECT_LT(counts.tested, 64u);
-}
-
 // Here the sphere that is set does not even hold the tile's own mesh.
 TEST(Spheres, OfPagedLodsThatTheApplicationHasSetHoldWhatIsLoadedBelow) {
     for (const auto mode : {osg::LOD::DISTANCE_FROM_EYE_POINT, osg::LOD::PIXEL_SIZE_ON_SCREEN}) {
