@@ -39,7 +39,7 @@ FAULTS = [
     Fault("the place nearest to a pole is left out", "applications/osgbindem/RasterFile.cpp",
           "kPlaces = 1000;", "kPlaces = 2;", DEM, "Source.ARasterBesideThePoleReachesItsNearestPlace"),
     Fault("database callback drops what is nested in it", "src/kit/database/DatabaseCallbacks.cpp",
-          "putInFront(node, *cull);", "node.setCullCallback(cull);", NODE, "*NestedDatabaseCallback*"),
+          "putInFront(node, *cull);", "node.setCullCallback(cull);", SCENES, f"{NAMED}/callback-above.scene"),
     Fault("statistics count the bin's verdict alone", "src/kit/cull/AnalyticBinCullCallback.cpp",
           "count(culled ? core::Side::Outside : side,", "count(side,", NODE, "CulledCounts.*"),
     Fault("no rounding in the edge search", "src/core/edge/HullSeparation.cpp",

@@ -166,46 +166,6 @@ TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     EXPECT_EQ(a->getUserDataContainer()->getNumUserObjects(), 1u);
 }
 
-// An application's callback on the CoordinateSystemNode that the database's own one stands on.
-struct Gate : osg::NodeCallback {
-    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        ++runs;
-        if (isOpen) traverse(node, nv);
-    }
-    int runs = 0;
-    bool isOpen = true;
-};
-
-TEST(NestedDatabaseCallback, RunsOnceATraversalAndMayPruneWhereverItStands) {
-    enum Place { BehindBeforeInstalling, BehindAfterInstalling, InFront };
-    for (const Place place : {BehindBeforeInstalling, BehindAfterInstalling, InFront}) {
-        MeshGlobe globe;
-        const osg::ref_ptr<Gate> gate = new Gate;
-        if (place == BehindBeforeInstalling) globe.root->setCullCallback(gate);
-        ASSERT_EQ(installBins(*globe.root), 32u);
-        if (place == BehindAfterInstalling) globe.root->addCullCallback(gate);
-        if (place == InFront) {
-            gate->setNestedCallback(globe.root->getCullCallback());
-            globe.root->setCullCallback(gate);
-        }
-        const auto expectItToDecide = [&](const char* when) {
-            for (const bool isOpen : {true, false}) {
-                gate->isOpen = isOpen;
-                gate->runs = 0;
-                EXPECT_EQ(globe.draws(*globe.tiles[19], globe.fromAbove()), isOpen) << when << place;
-                EXPECT_EQ(gate->runs, 1) << when << place;
-                EXPECT_FALSE(globe.draws(*globe.tiles[20], downTo(22.5, -22.5))) << when << place;
-            }
-        };
-        expectItToDecide("at first ");
-        for (const Method method : {Method::Quadratic, Method::Exact, Method::Quadratic}) {
-            installBins(*globe.root, by(method));
-            update(*globe.root);
-            expectItToDecide("later ");
-        }
-    }
-}
-
 // A tile whose PagedLOD and drawable have callbacks that cull whatever the eye, between callbacks of the user.
 struct ClusterTile {
     ClusterTile() {
