@@ -195,6 +195,7 @@ struct ViewSpec {
     osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
     osg::CullSettings::ComputeNearFarMode computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
     double smallFeaturePixels = 2.0;
+    bool isTileByTile = false;  ///< as a TileSurvey has it
 };
 
 /// What a scene has more of than others.

@@ -75,6 +75,7 @@ public:
         root->getBound();
         _recorder->setPainter(painter);
         _recorder->isViewPlain = isHarmless(*_ownStates);
+        BinStatistics::of(*_recorder).setTileByTile(spec.isTileByTile);
         const CullResult culled = cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
         Delivery delivery = _recorder->takeDelivery();
         delivery.projection = culled.projection;

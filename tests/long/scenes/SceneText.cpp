@@ -235,6 +235,7 @@ void eachField(Table& table, ViewSpec& view) {
     table("mode", mode);
     table("nearfar", nearFar);
     table("pixels", view.smallFeaturePixels);
+    table("tilebytile", view.isTileByTile);
     view.cullingMode = mode;
     view.computeNearFar = static_cast<osg::CullSettings::ComputeNearFarMode>(nearFar);
     if (look.at != look.eye) view.view = osg::Matrixd::lookAt(look.eye, look.at, look.up);
