@@ -5,12 +5,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace osgAnalyticBin {
+
+/// Tells damaged bytes from whole ones, for a later run of the same program; no protection against forgers.
+[[nodiscard]] inline std::uint64_t checksumOf(std::string_view bytes) {
+    return std::hash<std::string_view>()(bytes);
+}
 
 /// Appends values to `bytes` in the form that they have in memory, for a later run of the same program. A function
 /// template over writer and reader describes a record for both directions.
@@ -34,13 +42,25 @@ public:
         bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(typename List::value_type));
     }
 
+    /// All of it, with a checksum at its end.
+    [[nodiscard]] std::string finish() {
+        value(checksumOf(bytes));
+        return std::move(bytes);
+    }
+
     std::string bytes;
 };
 
-/// Takes the same in the same order. Throws std::out_of_range at the end.
+/// Takes the same in the same order. Throws std::out_of_range at the end, and for what finish() has not made.
 class RecordReader final {
 public:
-    explicit RecordReader(std::string_view bytes) : _rest(bytes) {}
+    explicit RecordReader(std::string_view bytes) : _rest(bytes) {
+        std::uint64_t checksum = 0;
+        if (bytes.size() < sizeof checksum) throw std::out_of_range("checksum");
+        _rest.remove_suffix(sizeof checksum);
+        std::memcpy(&checksum, bytes.data() + _rest.size(), sizeof checksum);
+        if (checksum != checksumOf(_rest)) throw std::out_of_range("checksum");
+    }
 
     template <class T>
     void value(T& value) {

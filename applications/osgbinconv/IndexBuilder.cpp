@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Checksum.h"
 #include "Commands.h"
 #include "DiskFile.h"
 #include "Failure.h"
@@ -52,11 +51,9 @@ std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
     if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > most) return std::nullopt;
     std::string bytes(size, '\0');
     if (!in.read(bytes.data(), size)) return std::nullopt;
-    const auto whole = osgAnalyticBin::support::wholeBytes(bytes);
-    if (!whole) return std::nullopt;
     try {
         FileRecord record;
-        osgAnalyticBin::RecordReader reader(*whole);
+        osgAnalyticBin::RecordReader reader(bytes);
         passRecord(reader, record);
         if (reader.isAtEnd()) return record;
     } catch (const std::out_of_range&) {
@@ -95,7 +92,7 @@ public:
     void append(const FileRecord& record) {
         osgAnalyticBin::RecordWriter writer, out;
         passRecord(writer, record);
-        out.list(osgAnalyticBin::support::withChecksum(std::move(writer.bytes)));
+        out.list(writer.finish());
         write(out.bytes);
     }
 

@@ -3,7 +3,6 @@
 
 #include "DatabaseFolder.h"
 
-#include "Checksum.h"
 #include "Failure.h"
 #include "RecordStream.h"
 #include "TileBuilder.h"
@@ -65,9 +64,8 @@ void takeFile(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept {
-    const int place[] = {tile.level, tile.x, tile.y};
-    return support::checksumOf(content, support::checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
+std::uint64_t fileChecksum(const TileId& tile, std::string_view content) {
+    return osgAnalyticBin::checksumOf(tileName(tile) + ' ' + std::to_string(osgAnalyticBin::checksumOf(content)));
 }
 
 std::string startName(const TileId& tile) {
@@ -220,17 +218,15 @@ void DatabaseFolder::keep(const SurveyedTile& tile) const {
     out.value<TileFigures>(tile);
     const std::string file = recordIn(_partial, tile.id);
     support::makeFolder(fs::path(file).parent_path().string());
-    writeFile(file, support::withChecksum(out.bytes));
+    writeFile(file, out.finish());
 }
 
 std::optional<SurveyedTile> DatabaseFolder::find(const TileId& tile, const TileLayout& layout) const {
     const std::string bytes = support::contentOf(recordIn(_partial, tile));
-    const auto whole = support::wholeBytes(bytes);
-    if (!whole) return std::nullopt;
     SurveyedTile found;
     std::string grid;
     try {
-        RecordReader in(*whole);
+        RecordReader in(bytes);
         in.list(grid);
         in.value<TileFigures>(found);
         if (!in.isAtEnd()) return std::nullopt;

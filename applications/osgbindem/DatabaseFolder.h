@@ -20,7 +20,7 @@ namespace osgbindem {
 using namespace osgAnalyticBin::tiles;
 
 /// Of the file with the children of a tile.
-[[nodiscard]] std::uint64_t fileChecksum(const TileId& tile, std::string_view content) noexcept;
+[[nodiscard]] std::uint64_t fileChecksum(const TileId& tile, std::string_view content);
 
 /// Name of a start tile, for what is kept apart for each of them: "X03_Y7".
 [[nodiscard]] std::string startName(const TileId& tile);
