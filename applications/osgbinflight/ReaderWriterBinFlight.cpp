@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CommandLine.h"
 #include "CsvTable.h"
 #include "Failure.h"
 #include "FrameCapture.h"
-#include "ParameterReader.h"
 #include "PathFiles.h"
 #include "PoseTable.h"
 #include "Quantiles.h"
@@ -49,17 +49,17 @@ struct FlightOptions {
     int frames = 15;                ///< frames whose cull time is measured at each pose, 1 to 1000
     double timeout = 120.0;         ///< seconds that one pose may take to load and draw
 
-    /// What reads "out=DIR,frames=15,timeout=120" into these. A folder's name may hold blanks, but no comma.
-    [[nodiscard]] std::vector<Parameter> parameters() {
-        const auto takeFolder = [this](const std::string& value) {
-            out = value;
-            return !value.empty();
-        };
-        return {{"out=FOLDER", "Folder of the pictures and of poses.csv (default: binflight)", takeFolder},
-                {"frames=1..1000", "Frames whose cull time is measured at each pose (default: 15)",
-                 wholeInto(frames, 1, 1000)},
-                {"timeout=SECONDS", "Longest time that one pose may take (default: 120)",
-                 numberInto(timeout, std::numeric_limits<double>::min(), 86400.0)}};
+    /// Declares what reads "out=DIR,frames=15,timeout=120" into these. A folder's name may hold blanks, but no comma.
+    void declare(CLI::App& app) {
+        app.set_help_flag();
+        app.add_option("--out", out, "Folder of the pictures and of poses.csv (default: binflight)")
+            ->option_text("FOLDER");
+        app.add_option("--frames", frames, "Frames whose cull time is measured at each pose (default: 15)")
+            ->option_text("1..1000")
+            ->check(CLI::Range(1, 1000));
+        app.add_option("--timeout", timeout, "Longest time that one pose may take (default: 120)")
+            ->option_text("SECONDS")
+            ->check(support::within(std::numeric_limits<double>::min(), 86400.0));
     }
 };
 
@@ -274,7 +274,11 @@ public:
         supportsExtension("binflight",
                           "Camera path: path.csv.(out=DIR,frames=15,timeout=120).binflight flies the viewer along "
                           "path.csv, and leaves pictures and poses.csv in DIR");
-        for (const auto& parameter : FlightOptions().parameters()) supportsOption(parameter.text, parameter.meaning);
+        CLI::App app;
+        FlightOptions options;
+        options.declare(app);
+        for (const CLI::Option* option : app.get_options())
+            supportsOption(support::parameterText(*option), option->get_description());
     }
 
     const char* className() const override { return "Camera path of osgAnalyticBin"; }
@@ -290,9 +294,10 @@ public:
         if (pathFile.empty()) return ReadResult(name.name + ": no such camera path");
 
         FlightOptions flightOptions;
-        const auto parameters = flightOptions.parameters();
+        CLI::App app;
+        flightOptions.declare(app);
         try {
-            readBracketed(parameters, name.parameters);
+            support::parseParameters(app, name.parameters);
             return ReadResult(nodeOf(readCameraPathFiles({pathFile}), flightOptions).get());
         } catch (const support::Failure& failure) {
             return ReadResult(failure.what());

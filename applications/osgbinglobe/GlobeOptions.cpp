@@ -3,11 +3,13 @@
 
 #include "GlobeOptions.h"
 
+#include "CommandLine.h"
 #include "Failure.h"
 
 #include <osgAnalyticBin/NameParameters.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 namespace osgAnalyticBin::globe {
 
@@ -34,38 +36,31 @@ std::string withoutFolder(const std::string& fileName) {
 
 }  // namespace
 
-bool GlobeOptions::operator==(const GlobeOptions& other) const {
-    return levels == other.levels && cells == other.cells && bins == other.bins;
-}
-
-std::vector<flight::Parameter> GlobeOptions::parameters() {
-    const auto takeCells = [this](const std::string& value) {
-        return flight::wholeInto(cells, 2, kMostCells)(value) && cells % 2 == 0;
-    };
-    const auto takeBins = [this](const std::string& value) {
-        bins = value == "on";
-        return bins || value == "off";
-    };
-    return {{"levels=0..24",
-             "Levels below the 16 x 8 start tiles (default: 12). From some 20 on OSG measures the distances at which "
-             "tiles are refined in steps of half a metre.",
-             flight::wholeInto(levels, 0, kMostLevels)},
-            {"cells=2..64", "Cells along a tile's edge, an even number (default: 16)", takeCells},
-            {"bins=on|off", "Whether tiles carry analytic bins, as those of osgbindem do (default: on)", takeBins}};
+void GlobeOptions::declare(CLI::App& app) {
+    app.set_help_flag();
+    app.add_option("--levels", levels,
+                   "Levels below the 16 x 8 start tiles (default: 12). From some 20 on OSG measures the distances at "
+                   "which tiles are refined in steps of half a metre.")
+        ->option_text("0..24")
+        ->check(CLI::Range(0, kMostLevels));
+    app.add_option("--cells", cells, "Cells along a tile's edge, an even number (default: 16)")
+        ->option_text("2..64")
+        ->check(CLI::Range(2, kMostCells))
+        ->check([](const std::string& word) { return std::atoi(word.c_str()) % 2 == 0 ? "" : word + " is not even"; });
+    app.add_option("--bins", bins, "Whether tiles carry analytic bins, as those of osgbindem do (default: on)")
+        ->option_text("on|off");
 }
 
 GlobeName globeNameOf(const std::string& fileName) {
     const std::string file = withoutFolder(fileName);
     const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
     GlobeName result;
-    const auto known = result.options.parameters();
+    CLI::App app;
+    result.options.declare(app);
     result.tile = tileFrom(parts.name);
     try {
-        if (!result.tile && !parts.name.empty() &&
-            !flight::wholeInto(result.options.levels, 0, GlobeOptions::kMostLevels)(parts.name))
-            throw Failure("\"" + parts.name + "\" is no number of levels; give 0 to 24, for example 12." +
-                          kGlobeExtension);
-        flight::readBracketed(known, parts.parameters);
+        if (!result.tile && !parts.name.empty()) support::parseParameters(app, "levels=" + parts.name);
+        support::parseParameters(app, parts.parameters);
         if (result.tile && !hasChildren(*result.tile, result.options))
             throw Failure("tile \"" + parts.name + "\" has no children in a globe of " +
                           std::to_string(result.options.levels) + " levels");

@@ -3,11 +3,13 @@
 
 #pragma once
 
-#include <ParameterReader.h>
 #include <TileLayout.h>
 #include <optional>
 #include <string>
-#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace osgAnalyticBin::globe {
 
@@ -22,10 +24,8 @@ struct GlobeOptions {
     /// Metres from the lowest terrain, at the ellipsoid, to the highest.
     static constexpr double kRelief = 8000.0;
 
-    [[nodiscard]] bool operator==(const GlobeOptions& other) const;
-
-    /// What reads the parameters of a file's name into these.
-    [[nodiscard]] std::vector<flight::Parameter> parameters();
+    /// Declares what reads the parameters of a file's name into these.
+    void declare(CLI::App& app);
 };
 
 inline constexpr const char* kGlobeExtension = "proceduralglobe";

@@ -8,7 +8,7 @@
 #include <osgAnalyticBin/Version.h>
 
 #include <cstdio>
-#include <string>
+#include <sstream>
 
 namespace osgAnalyticBin::support {
 
@@ -23,6 +23,21 @@ CLI::Validator within(double lower, double upper) {
             return isNumber && value >= lower && value <= upper ? std::string() : word + complaint;
         },
         "FLOAT");
+}
+
+void parseParameters(CLI::App& app, const std::string& text) {
+    std::istringstream items(text);
+    for (std::string item; std::getline(items, item, ',');) {
+        CLI::detail::trim(item);
+        try {
+            app.parse(std::vector<std::string>{"--" + item});
+        } catch (const CLI::ParseError&) {
+            std::string allowed;
+            for (const CLI::Option* option : app.get_options())
+                allowed += (allowed.empty() ? "" : ", ") + parameterText(*option);
+            throw Failure("unknown or malformed parameter \"" + item + "\"; allowed are " + allowed);
+        }
+    }
 }
 
 bool parseCommandLine(CLI::App& app, int argc, const char* const* argv) {

@@ -35,11 +35,11 @@ TEST(GlobeOptions, AreReadFromTheNameOfTheFileAndReadBackToTheSame) {
     options.levels = 24;
     options.cells = 2;
     options.bins = false;
-    EXPECT_EQ(optionsOf("(levels=24,cells=2,bins=off).proceduralglobe"), options);
-    EXPECT_EQ(optionsOf(rootFileOf(options)), options);
+    EXPECT_EQ(rootFileOf(options), "(levels=24,cells=2,bins=off).proceduralglobe");
+    EXPECT_EQ(rootFileOf(optionsOf(rootFileOf(options))), rootFileOf(options));
     const tiles::TileId tile{23, (16 << 23) - 1, (8 << 23) - 1};
     const auto name = globeNameOf(childrenFileOf(tile, options));
-    EXPECT_EQ(name.options, options);
+    EXPECT_EQ(rootFileOf(name.options), rootFileOf(options));
     ASSERT_TRUE(name.tile);
     EXPECT_EQ(*name.tile, tile);
 }
@@ -50,7 +50,8 @@ TEST(GlobeOptions, ErrorsNameWhatIsWrongAndWhatIsAllowed) {
         EXPECT_NE(error.find(what), std::string::npos) << name << ": " << error;
     };
     for (const std::string name : {"25", "-1", "1.5", "earth"})
-        expectError(name + ".proceduralglobe", "number of levels");
+        expectError(name + ".proceduralglobe",
+                    "\"levels=" + name + "\"; allowed are levels=0..24, cells=2..64, bins=on|off");
     for (const std::string item : {"levels=25", "cells=3", "cells=66", "bins=maybe", "colour=red", "levels"})
         expectError("(" + item + ").proceduralglobe", "\"" + item + "\"; allowed are");
     for (const std::string tile : {"3-0-0", "0-16-0", "0-0-8", "1-32-0", "2--1-0"})
