@@ -191,27 +191,18 @@ CameraPose mixed(const CameraPose& a, const CameraPose& b, double share) {
             a.eyeRight + (b.eyeRight - a.eyeRight) * share};
 }
 
-// When each pose is reached; poses that nobody gave times are a second apart.
-std::vector<double> timesOf(const std::vector<CameraPose>& path) {
-    const bool areGiven = path.front().time < path.back().time;
-    std::vector<double> times;
-    for (const CameraPose& pose : path) times.push_back(areGiven ? pose.time : static_cast<double>(times.size()));
-    return times;
-}
-
 }  // namespace
 
 std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int frames) {
     std::vector<CameraPose> poses;
-    const std::vector<double> times = timesOf(path);
-    const double duration = times.back() - times.front();
+    const double begin = path.front().time, duration = path.back().time - begin;
     std::size_t from = 0;
     for (int frame = 0; frame < frames; ++frame) {
-        const double time = times.front() + (frames > 1 ? duration * frame / (frames - 1) : 0.0);
-        while (from + 2 < path.size() && times[from + 1] <= time) ++from;
+        const double time = begin + (frames > 1 ? duration * frame / (frames - 1) : 0.0);
+        while (from + 2 < path.size() && path[from + 1].time <= time) ++from;
         const std::size_t to = std::min(from + 1, path.size() - 1);
-        const double seconds = times[to] - times[from];
-        const double share = seconds > 0.0 ? std::clamp((time - times[from]) / seconds, 0.0, 1.0) : 0.0;
+        const double seconds = path[to].time - path[from].time;
+        const double share = seconds > 0.0 ? std::clamp((time - path[from].time) / seconds, 0.0, 1.0) : 0.0;
         poses.push_back(mixed(path[from], path[to], share));
     }
     return poses;
