@@ -7,7 +7,6 @@
 #include "CsvTable.h"
 #include "Output.h"
 #include "PictureDifference.h"
-#include "PoseTable.h"
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +41,7 @@ Json numberIn(const flight::CsvTable& table, const flight::CsvTable::Row& row, s
 FlownFolder flownFrom(const std::string& folder) {
     const fs::path path = fs::path(folder).lexically_normal();
     FlownFolder flown{{(path.has_filename() ? path : path.parent_path()).filename().string(), {}}, {}, {}, {}};
-    const std::string file = (path / flight::kPoseTableName).string();
+    const std::string file = (path / "poses.csv").string();
     std::ifstream input(file);
     if (!input) throw Failure(file + ": cannot be opened (did that flight fail?)");
     const flight::CsvTable table = flight::readCsv(input, file);

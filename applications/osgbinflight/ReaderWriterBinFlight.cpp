@@ -6,9 +6,9 @@
 #include "Failure.h"
 #include "FrameCapture.h"
 #include "PathFiles.h"
-#include "PoseTable.h"
 #include "Quantiles.h"
 #include "ReadCounter.h"
+#include "TextFile.h"
 #include "ThreadingName.h"
 #include "TileCensus.h"
 
@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ namespace {
 // on its way from a queue to a thread in the next.
 constexpr int kIdleFrames = 20;
 constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr const char* kTableName = "poses.csv";
+constexpr const char* kColumns =
+    "name,tested_tiles,kept_tiles,drawn_tiles,drawables,triangles,files_requested,cull_ms,frame_ms,picture\n";
 constexpr const char* kCullTime = "Cull traversal time taken";
 
 /// How a camera path is flown.
@@ -131,8 +135,8 @@ private:
         _idleFrames = isPagerIdle(viewer) ? _idleFrames + 1 : 0;
         if (_idleFrames < kIdleFrames) return;
         _idleFrames = 0;
-        _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
-        if (_record.tiles.wanted == 0) _phase = &CameraFlight::time;
+        _tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
+        if (_tiles.wanted == 0) _phase = &CameraFlight::time;
     }
 
     // The frame before this one is culled by now, under every threading model.
@@ -154,16 +158,22 @@ private:
         if (isTimeOver(viewer, "the picture")) return;
         const osg::ref_ptr<osg::Image> picture = _capture->take();
         if (!picture) return;
-        _record.cullMs = support::Quantiles(_cullMs).at(1, 2);
-        _record.frameMs = support::Quantiles(_frameMs).at(1, 2);
-        _record.files = _reads->nodeFiles() - _filesAtArrival;
-        _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
-        if (_record.tiles.wanted > 0) return fail(viewer, pose().name + ": the database changed before the picture");
-        if (!savePicture(*picture)) return fail(viewer, pose().name + ": the picture cannot be saved");
-        OSG_NOTICE << "binflight: " << _record.name << ": " << _record.tiles.drawn << " tiles drawn, " << _record.files
-                   << " files, cull " << _record.cullMs << " ms, frame " << _record.frameMs << " ms" << std::endl;
-        _records.push_back(_record);
-        if (_records.size() == _path.size()) return land(viewer);
+        const double cullMs = support::Quantiles(_cullMs).at(1, 2), frameMs = support::Quantiles(_frameMs).at(1, 2);
+        const std::uint64_t files = _reads->nodeFiles() - _filesAtArrival;
+        const std::string& name = pose().name;
+        _tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
+        if (_tiles.wanted > 0) return fail(viewer, name + ": the database changed before the picture");
+        const std::filesystem::path file = std::filesystem::path(_options.out) / (name + ".png");
+        if (!osgDB::writeImageFile(*picture, file.string()))
+            return fail(viewer, name + ": the picture cannot be saved");
+        OSG_NOTICE << "binflight: " << name << ": " << _tiles.drawn << " tiles drawn, " << files << " files, cull "
+                   << cullMs << " ms, frame " << frameMs << " ms" << std::endl;
+        std::ostringstream row;
+        row << name << ',' << _tiles.tested << ',' << _tiles.kept << ',' << _tiles.drawn << ',' << _tiles.drawables
+            << ',' << _tiles.triangles << ',' << files << ',' << textFrom(cullMs) << ',' << textFrom(frameMs) << ','
+            << name << ".png\n";
+        _rows.push_back(row.str());
+        if (_rows.size() == _path.size()) return land(viewer);
         arrive();
     }
 
@@ -172,7 +182,7 @@ private:
         std::error_code problem;
         std::filesystem::create_directories(_options.out, problem);
         if (problem) return false;
-        std::filesystem::remove(std::filesystem::path(_options.out) / kPoseTableName, problem);
+        std::filesystem::remove(std::filesystem::path(_options.out) / kTableName, problem);
         return !problem;
     }
 
@@ -194,8 +204,7 @@ private:
         _cullMs.clear();
         _frameMs.clear();
         _lastFrame = 0;
-        _record = PoseRecord();
-        _record.name = pose().name;
+        _tiles = {};
     }
 
     [[nodiscard]] bool isPagerIdle(osgViewer::Viewer& viewer) {
@@ -210,28 +219,24 @@ private:
         const double seconds = osg::Timer::instance()->delta_s(_arrival, osg::Timer::instance()->tick());
         if (seconds <= _options.timeout) return false;
         fail(viewer, pose().name + ": still waiting for " + waitingFor + " after " + textFrom(_options.timeout) +
-                         " s (" + std::to_string(_record.tiles.wanted) + " files wanted when the pager was last idle)");
+                         " s (" + std::to_string(_tiles.wanted) + " files wanted when the pager was last idle)");
         return true;
-    }
-
-    [[nodiscard]] bool savePicture(const osg::Image& picture) {
-        _record.picture = _record.name + ".png";
-        const std::filesystem::path file = std::filesystem::path(_options.out) / _record.picture;
-        return osgDB::writeImageFile(picture, file.string());
     }
 
     void land(osgViewer::Viewer& viewer) {
         try {
-            writePoseTable(_options.out, _records, remarkOn(viewer, _options));
+            std::string text = "# " + remarkOn(viewer, _options) + "\n" + kColumns;
+            for (const std::string& row : _rows) text += row;
+            support::writeFile((std::filesystem::path(_options.out) / kTableName).string(), text);
         } catch (const support::Failure& failure) {
             return fail(viewer, failure.what());
         }
-        OSG_NOTICE << "binflight: " << _records.size() << " poses in " << _options.out << std::endl;
+        OSG_NOTICE << "binflight: " << _rows.size() << " poses in " << _options.out << std::endl;
         stop(viewer);
     }
 
     void fail(osgViewer::Viewer& viewer, const std::string& text) {
-        OSG_WARN << "binflight: " << text << "; the flight ends without " << kPoseTableName << std::endl;
+        OSG_WARN << "binflight: " << text << "; the flight ends without " << kTableName << std::endl;
         stop(viewer);
     }
 
@@ -244,7 +249,7 @@ private:
         viewer.setDone(true);
     }
 
-    [[nodiscard]] const CameraPose& pose() const { return _path[_records.size()]; }
+    [[nodiscard]] const CameraPose& pose() const { return _path[_rows.size()]; }
 
     std::vector<CameraPose> _path;
     FlightOptions _options;
@@ -260,8 +265,8 @@ private:
     int _idleFrames = 0;
     std::vector<double> _cullMs, _frameMs;
     osg::Timer_t _lastFrame = 0;  // 0: the one before was not timed
-    PoseRecord _record;
-    std::vector<PoseRecord> _records;
+    TileCounts _tiles;
+    std::vector<std::string> _rows;  // of the table
 };
 
 }  // namespace

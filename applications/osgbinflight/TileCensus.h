@@ -4,7 +4,6 @@
 #pragma once
 
 #include "CullWatcher.h"
-#include "PoseTable.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -34,7 +33,17 @@ struct DrawnTile {
     AnalyticBin bin;
 };
 
-/// What one cull traversal of a scene does.
+/// What one cull traversal did with the tiles of a database, whatever the method.
+struct TileCounts {
+    std::uint64_t tested = 0;     ///< tiles that the traversal reached
+    std::uint64_t kept = 0;       ///< tiles whose children it reached
+    std::uint64_t drawn = 0;      ///< tiles with geometry of their own in the render bins
+    std::uint64_t drawables = 0;  ///< drawables in the render bins
+    std::uint64_t triangles = 0;  ///< triangles of those
+    std::uint64_t wanted = 0;     ///< files that PagedLODs asked for: not loaded yet
+};
+
+/// The same, and what else one looks at.
 struct Census : TileCounts {
     std::uint64_t nodes = 0;      ///< nodes and drawables that the traversal reached
     std::uint64_t pagedLods = 0;  ///< PagedLODs among the tiles kept

@@ -4,7 +4,6 @@
 // `osgbinbench report` over made-up flights: the parts here, the program's exit codes at the end.
 
 #include "Output.h"
-#include "PoseTable.h"
 #include "Report.h"
 
 #include <gtest/gtest.h>
@@ -37,15 +36,15 @@ osg::ref_ptr<osg::Image> greyPicture() {
 std::string makeRun(const TemporaryFolder& folder, const std::string& name, std::uint64_t drawn,
                     const osg::Image& second) {
     const std::string run = folder.makeFolder(name);
-    std::vector<flight::PoseRecord> poses(2);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        poses[i].name = "far_" + std::to_string(i + 1);
-        poses[i].picture = poses[i].name + ".png";
-        poses[i].tiles.tested = poses[i].tiles.kept = poses[i].tiles.drawn = drawn;
-        poses[i].cullMs = 1.5;
-        EXPECT_TRUE(osgDB::writeImageFile(i == 0 ? *greyPicture() : second, run + "/" + poses[i].picture));
+    const std::string tiles = ',' + std::to_string(drawn);
+    std::string table =
+        "# a remark\nname,tested_tiles,kept_tiles,drawn_tiles,drawables,triangles,files_requested,cull_ms,frame_ms,"
+        "picture\n";
+    for (const std::string pose : {"far_1", "far_2"}) {
+        table += pose + tiles + tiles + tiles + ",0,0,0,1.5,0," + pose + ".png\n";
+        EXPECT_TRUE(osgDB::writeImageFile(pose == "far_1" ? *greyPicture() : second, run + "/" + pose + ".png"));
     }
-    flight::writePoseTable(run, poses, "");
+    (void)folder.write(name + "/poses.csv", table);
     return run;
 }
 
