@@ -3,10 +3,9 @@
 
 #pragma once
 
-#include "BoxBins.h"
 #include "Camera.h"
-#include "ComparisonBins.h"
 #include "FrustumHull.h"
+#include "RivalBins.h"
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>

@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include "BoxBins.h"
-#include "ComparisonBins.h"
-#include "HorizonPoint.h"
+#include "RivalBins.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/PlaneSet.h>

@@ -9,11 +9,9 @@
 // flat and long ellipsoids, in metres, kilometres and radii, and as near to a tie as doubles come: up to 1e-9 of the
 // radius. There ranges of exact bins have to be tight as well.
 
-#include "BoxBins.h"
-#include "ComparisonBins.h"
 #include "FrustumHull.h"
-#include "HorizonPoint.h"
 #include "LongRun.h"
+#include "RivalBins.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>

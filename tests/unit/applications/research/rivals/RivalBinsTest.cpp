@@ -5,10 +5,8 @@
 // long double; the rules written down a second time; the point itself, found from samples of the bin, whose own line of
 // sight is tested in long double. Millions of planes, frusta and eyes: Soundness.cpp.
 
-#include "BoxBins.h"
-#include "ComparisonBins.h"
 #include "FrustumHull.h"
-#include "HorizonPoint.h"
+#include "RivalBins.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
