@@ -4,8 +4,9 @@
 #include "Commands.h"
 #include "DiskFile.h"
 #include "Failure.h"
-#include "Progress.h"
+#include "ProgressLine.h"
 #include "RecordStream.h"
+#include "TextFile.h"
 
 #include <cerrno>
 #include <cstring>
@@ -142,20 +143,41 @@ void requireNothingForeign(const std::string& path) {
     if (in && magic != BinIndex::kMagic) throw Failure("\"" + path + "\" is no index of bins; move it away");
 }
 
+/// Says on stderr how far a pass over the files of a database is.
 class ReportedWalk final : public osgAnalyticBin::indexing::WalkObserver {
 public:
-    ReportedWalk(const std::function<void(const FileRecord&)>& keep, bool isQuiet) : _keep(keep), _progress(isQuiet) {}
+    ReportedWalk(const std::function<void(const FileRecord&)>& keep, bool isQuiet) : _keep(keep), _isQuiet(isQuiet) {}
 
     void beforeFile() override { osgAnalyticBin::support::throwIfStopRequested(); }
     void done(const FileRecord& record, bool isKnown, double share) override {
         if (!isKnown && _keep) _keep(record);
-        isKnown ? _progress.addKnown(record.tiles.size(), share) : _progress.add(record.tiles.size(), share);
+        ++_files;
+        _tiles += record.tiles.size();
+        _share += share;
+        if (isKnown) {
+            ++_known;
+            _line.skip(share);
+        }
+        if (!_isQuiet && _line.isDue()) _line.show(_share, text());
     }
-    void finish() { _progress.finish(); }
+    void finish() {
+        if (!_isQuiet) _line.finish(_share, text());
+    }
 
 private:
+    [[nodiscard]] std::string text() const {
+        const double seconds = _line.seconds();
+        const double rate = seconds > 0.0 ? static_cast<double>(_tiles) / seconds : 0.0;
+        const std::string known = _known > 0 ? " (" + std::to_string(_known) + " files from an earlier run)" : "";
+        return "osgbinconv: read " + std::to_string(_files) + " files, " + std::to_string(_tiles) + " tiles, " +
+               osgAnalyticBin::support::withDecimals(rate, 0) + " tiles/s" + known + ", ";
+    }
+
     const std::function<void(const FileRecord&)>& _keep;
-    Progress _progress;
+    const bool _isQuiet;
+    osgAnalyticBin::support::ProgressLine _line{stderr};
+    std::size_t _files = 0, _known = 0, _tiles = 0;
+    double _share = 0.0;
 };
 
 /// A database of which no index can be made leaves no records behind.
