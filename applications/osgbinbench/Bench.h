@@ -16,6 +16,8 @@
 
 namespace osgAnalyticBin::bench {
 
+class FileWatch;
+
 /// A camera path around a database that has none, made from its extents: the whole of it from above (overview), down
 /// onto the place with the highest terrain from four sides (oblique), level across the ground there (low), and a turn
 /// of the head there (turning). OSG computes near and far planes, as in the stock osgviewer.

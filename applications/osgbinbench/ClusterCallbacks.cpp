@@ -16,7 +16,7 @@
 #include <osg/ClusterCullingCallback>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
-#include <osgTerrain/TerrainTile>
+#include <osg/Transform>
 
 #include <algorithm>
 #include <cmath>
@@ -102,45 +102,24 @@ private:
     std::unordered_map<std::int64_t, const Vertex*> _highest;
 };
 
-class MeshVertices : public osg::NodeVisitor {
-public:
-    explicit MeshVertices(const osg::Matrixd& localToEcef)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _localToEcef(localToEcef) {
-        setNodeMaskOverride(~0U);
-    }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Group& node) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::Transform& node) override {
-        const osg::Matrixd outer = _localToEcef;
-        node.computeLocalToWorldMatrix(_localToEcef, this);
-        traverse(node);
-        _localToEcef = outer;
-    }
-    void apply(osg::Geometry& geometry) override {
-        const auto* const array = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
-        if (!array) return;
-        for (const osg::Vec3& v : *array) vertices.push_back(toGlm(osg::Vec3d(v) * _localToEcef));
-    }
-
-    std::vector<glm::dvec3> vertices;
-
-private:
-    osg::Matrixd _localToEcef;
-};
+void addVertices(osg::Node& mesh, const osg::Matrixd& localToEcef, std::vector<glm::dvec3>& vertices) {
+    support::visitNodes(mesh, [&](osg::Node& node, osg::NodeVisitor& visitor) {
+        const osg::Geometry* const geometry = node.asGeometry();
+        const auto* const array = geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+        const osg::Matrixd toEcef = osg::computeLocalToWorld(visitor.getNodePath()) * localToEcef;
+        for (std::size_t i = 0; array && i < array->size(); ++i)
+            vertices.push_back(toGlm(osg::Vec3d((*array)[i]) * toEcef));
+        return true;
+    });
+}
 
 bool fill(const FoundTile& tile) {
     // a cull callback of a transform sees the eye in the transform's own frame
     const osg::Transform* const transform = tile.node->asTransform();
     const osg::Matrixd inside = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
     std::vector<glm::dvec3> vertices;
-    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
-        MeshVertices visitor(mesh == tile.node ? tile.frame.localToEcef : inside);
-        mesh->accept(visitor);
-        vertices.insert(vertices.end(), visitor.vertices.begin(), visitor.vertices.end());
-    }
+    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes)
+        addVertices(*mesh, mesh == tile.node ? tile.frame.localToEcef : inside, vertices);
     const auto cluster = clusterOf(vertices, toCore(*tile.frame.ellipsoid));
     if (!cluster) return false;
     const osg::Matrixd ecefToLocal = osg::Matrixd::inverse(inside);

@@ -3,12 +3,17 @@
 
 #pragma once
 
-#include "FileWatch.h"
-
 #include <string>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
+
+/// What becomes of the ClusterCullingCallbacks of a database.
+enum class Clusters {
+    Keep,
+    Remove,
+    Fill  ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
+};
 
 /// A way to cull a database, by the name that the command line and the tables use:
 /// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.

@@ -50,15 +50,15 @@ private:
     std::filesystem::path _folder;
 };
 
-void writeDiagrams(std::ostream& page, const std::vector<report::Diagram>& diagrams) {
+void writeDiagrams(std::ostream& page, const std::vector<Diagram>& diagrams) {
     const Scratch scratch;
     try {
-        report::plot(scratch.folder().string(), diagrams);
+        plot(scratch.folder().string(), diagrams);
     } catch (const support::Failure&) {
         page << "<p>The diagrams need gnuplot (Debian: gnuplot-nox).</p>\n";
         return;
     }
-    for (const report::Diagram& diagram : diagrams) {
+    for (const Diagram& diagram : diagrams) {
         const std::string svg = support::contentOf((scratch.folder() / (diagram.name + ".svg")).string());
         page << svg.substr(svg.find("<svg")) << '\n';
     }

@@ -3,6 +3,7 @@
 
 #include "MethodScene.h"
 
+#include "ClusterCallbacks.h"
 #include "CsvTable.h"
 #include "Failure.h"
 #include "Nodes.h"
@@ -10,10 +11,12 @@
 #include "Rivals.h"
 #endif
 
+#include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
 
+#include <algorithm>
 #include <limits>
 #include <thread>
 
@@ -39,6 +42,13 @@ protected:
     ~OwnScene() override = default;
 };
 
+void raiseExpiry(osg::Node& node, double seconds) {
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+    for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
+        if (!paged->getFileName(i).empty())
+            paged->setMinimumExpiryTime(i, std::max(seconds, paged->getMinimumExpiryTime(i)));
+}
+
 void scaleVertically(osg::Node& scene, double scale, const std::string& database) {
     bool isFound = false;
     support::visitNodes(scene, [&](osg::Node& node, osg::NodeVisitor&) {
@@ -51,6 +61,19 @@ void scaleVertically(osg::Node& scene, double scale, const std::string& database
 }
 
 }  // namespace
+
+void FileWatch::setTreatment(Clusters clusters, double expiry, const osg::EllipsoidModel* globe) {
+    _clusters = clusters;
+    _expiry = expiry;
+    _globe = globe ? new osg::EllipsoidModel(globe->getRadiusEquator(), globe->getRadiusPolar()) : nullptr;
+}
+
+void FileWatch::treat(osg::Node& graph) {
+    if (_clusters == Clusters::Remove) removeClusterCallbacks(graph);
+    if (_clusters == Clusters::Fill) fillClusterCallbacks(graph, _globe);
+    const double seconds = _expiry;
+    if (seconds > 0.0) support::forAllNodes(graph, [seconds](osg::Node& node) { raiseExpiry(node, seconds); });
+}
 
 /// Counts the requests of a frame, and hands them on.
 class MethodScene::Requests final : public flight::RequestCounter {

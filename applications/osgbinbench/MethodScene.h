@@ -8,18 +8,42 @@
 #include "CullMethod.h"
 #include "CullWatcher.h"
 #include "Failure.h"
-#include "FileWatch.h"
+#include "ReadCounter.h"
 #include "Settings.h"
 #include "TileCensus.h"
 
+#include <osg/CoordinateSystemNode>
 #include <osgUtil/UpdateVisitor>
 #include <osgViewer/Scene>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 
 namespace osgAnalyticBin::bench {
+
+/// Counts the files that are read, also those that the DatabasePager loads, and changes what is read: it removes or
+/// fills cluster callbacks, and raises the minimum expiry time of what PagedLODs page in, as bins do by
+/// CullOptions::expiry; longer times stay. At first it changes nothing. One in a program, installed before the first
+/// file is read.
+class FileWatch : public flight::ReadCounter {
+public:
+    /// `expiry`: seconds; 0 leaves times as they are. `globe`: of the pages read next; nullptr: the root file has to be
+    /// read next. Must not be called while files are read.
+    void setTreatment(Clusters clusters, double expiry, const osg::EllipsoidModel* globe = nullptr);
+
+protected:
+    ~FileWatch() override = default;
+    void treat(osg::Node& graph) override;
+
+private:
+    std::atomic<Clusters> _clusters{Clusters::Keep};
+    std::atomic<double> _expiry{0.0};
+    /// Whose pages are read. A copy: the globe may come from a plugin, which the Registry unloads before its callbacks
+    /// are gone.
+    osg::ref_ptr<const osg::EllipsoidModel> _globe;
+};
 
 /// A database with a pager and a clock of its own, culled by one method, and taken from frame to frame without drawing:
 /// what has been read is merged, the graph is updated, then culled, and what is missing is asked for. So no frame is

@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <ostream>
+#include <sys/wait.h>
 
 namespace osgAnalyticBin::bench {
 
@@ -157,7 +159,6 @@ void print(std::ostream& output, const std::vector<TextTable>& tables) {
 
 namespace {
 
-using report::Diagram;
 using Methods = std::vector<MethodFigures>;
 
 /// Bars for each path, one a method.
@@ -176,6 +177,12 @@ constexpr std::array<BarChart, 3> kBarCharts{{
     {"files", false, [](const Json& sum, double poses) { return sum["files_requested"].get<double>() / poses; }},
     {"cull", true, [](const Json& sum, double poses) { return sum[kCullColumn].get<double>() / poses; }},
 }};
+
+std::string quotedForShell(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
 
 Json rowOf(const BarChart& chart, const PathGroup& group, const Methods& methods) {
     Json row{{"path", group.name}};
@@ -200,10 +207,29 @@ std::vector<Diagram> diagramsOf(const Measurement& measured) {
     for (const BarChart& chart : kBarCharts) {
         std::vector<Json> rows;
         for (const PathGroup& group : groups) rows.push_back(rowOf(chart, group, shown));
-        diagrams.push_back({chart.name, report::csvOf(rows),
-                            report::drawnTwice(chart.name, "size 1000,560 noenhanced font 'sans,12'", kBarsScript)});
+        diagrams.push_back({chart.name, report::csvOf(rows)});
     }
     return diagrams;
+}
+
+void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
+    constexpr int kNoProgram = 127;  // as the shell says it
+    support::makeFolder(folder);
+    support::writeFile(folder + "/bars.gp", kBarsScript);
+    for (const Diagram& diagram : diagrams) support::writeFile(folder + "/" + diagram.name + ".csv", diagram.data);
+    for (const Diagram& diagram : diagrams) {
+        const std::string draw = "gnuplot -e \"name='" + diagram.name + "'\" bars.gp";
+        const std::string command =
+            "cd " + quotedForShell(folder) + " && { command -v gnuplot >/dev/null || exit 127; } && exec " + draw;
+        const int status = std::system(command.c_str());
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        if (code == kNoProgram)
+            throw support::Failure("--plot: gnuplot is not installed (Debian: gnuplot-nox); then, in " + folder + ": " +
+                                   draw);
+        if (code != 0)
+            throw support::Failure("--plot: gnuplot failed on " + diagram.name + ".csv in " + folder +
+                                   "; it says why above");
+    }
 }
 
 namespace {

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "Diagram.h"
 #include "Figures.h"
 #include "Settings.h"
 #include "Table.h"
@@ -29,9 +28,20 @@ namespace osgAnalyticBin::bench {
 /// "cluster" where these were flown, then the most telling sums path by path, if there are several.
 [[nodiscard]] std::vector<report::TextTable> tablesOf(const Measurement& measured);
 
+/// A diagram that the gnuplot script bars.gp draws: what it shows, comma-separated.
+struct Diagram {
+    std::string name;
+    std::string data;
+};
+
 /// Tiles drawn, files requested and cull time by method, path by path. Requires: poses.
 /// The reference method is left out where there are others: it dwarfs them all.
-[[nodiscard]] std::vector<report::Diagram> diagramsOf(const Measurement& measured);
+[[nodiscard]] std::vector<Diagram> diagramsOf(const Measurement& measured);
+
+/// Writes NAME.csv of each diagram and bars.gp to a folder, which is made if it is missing, and has gnuplot draw
+/// NAME.svg and NAME.png there. Throws: Failure when a file cannot be written, gnuplot is not installed or does not
+/// succeed; the data and the script are there when only the drawing failed.
+void plot(const std::string& folder, const std::vector<Diagram>& diagrams);
 
 /// One below the other.
 void print(std::ostream& output, const std::vector<report::TextTable>& tables);
@@ -47,7 +57,7 @@ struct HtmlReport {
     std::string partial;  ///< why it is not complete; empty: it is
     std::vector<std::string> sentences;
     std::vector<report::TextTable> tables;
-    std::vector<report::Diagram> diagrams;
+    std::vector<Diagram> diagrams;
     std::vector<std::pair<std::string, osg::ref_ptr<osg::Image>>> pictures;  ///< with their names
 
     /// One page that needs no other file. Gnuplot draws the diagrams; where it is not installed, the page says so.

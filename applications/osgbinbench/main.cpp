@@ -80,7 +80,7 @@ void tellOfPoses(const Settings& settings, std::size_t planned, const PoseFigure
     std::cout.flush();
     if (settings.plot.empty() && settings.report.empty()) return;
     report.diagrams = diagramsOf(measured);
-    if (!settings.plot.empty()) osgAnalyticBin::report::plot(settings.plot, report.diagrams);
+    if (!settings.plot.empty()) plot(settings.plot, report.diagrams);
     if (settings.report.empty()) return;
     report.pictures = chosenPictures(measured.poses, found.pictures);
     writeFile(settings.report, report.html());

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 
-# Bars for each path, one a method. NAME.csv has a column for each method, followed by half its spread where there is one;
+# Bars for each path, one a method, as SVG and as PNG: gnuplot -e "name='drawn'" bars.gp
+# NAME.csv has a column for each method, followed by half its spread where there is one;
 # name is drawn, files or cull.
 # Ratios stand on 1, and equal ratios are equally far apart. Times that differ much have a logarithmic axis, too.
 # The colours of Okabe and Ito, which the colour-blind can tell apart; those of OSG's own methods come first.
 colours = "#D55E00 #E69F00 #0072B2 #009E73 #CC79A7 #56B4E9 #555555"
+look = "size 1000,560 noenhanced font 'sans,12'"
+set terminal svg background "white" @look
+set output name.".svg"
 set datafile separator ","
 data = name.".csv"
 isRatio = name eq "drawn"
@@ -62,3 +66,7 @@ plot data skip 1 using 0:(base):xtic(1) with dots lc rgb "white" notitle, \
     for [m=1:numbered] data skip 1 \
         using ($0 + middle(m)):(isRatio && figure(m) < 1 ? 1 : figure(m)):(sprintf(isRatio ? "%.2f" : "%.0f", figure(m))) \
         with labels rotate by 90 left offset 0,0.3 notitle
+set terminal pngcairo @look
+set output name.".png"
+replot
+unset output

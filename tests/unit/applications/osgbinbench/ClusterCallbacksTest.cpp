@@ -5,7 +5,7 @@
 // numbers worked out by hand for a tile on a ball.
 
 #include "ClusterCallbacks.h"
-#include "FileWatch.h"
+#include "MethodScene.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
