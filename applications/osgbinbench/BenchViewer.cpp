@@ -10,6 +10,7 @@
 #include <osgDB/DatabasePager>
 
 #include <chrono>
+#include <cstring>
 
 namespace osgAnalyticBin::bench {
 
@@ -56,7 +57,25 @@ void prepareCamera(osg::Camera& camera, osg::GraphicsContext& surface) {
     camera.getOrCreateStateSet()->setMode(GL_DITHER, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
 }
 
+std::string sizeOf(const osg::Image& image) {
+    return std::to_string(image.s()) + "x" + std::to_string(image.t());
+}
+
 }  // namespace
+
+std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second) {
+    if (first.s() != second.s() || first.t() != second.t())
+        throw Failure("sizes differ: " + sizeOf(first) + " and " + sizeOf(second));
+    if (first.getPixelFormat() != second.getPixelFormat() || first.getDataType() != GL_UNSIGNED_BYTE ||
+        second.getDataType() != GL_UNSIGNED_BYTE)
+        throw Failure("formats differ, or are not 8 bits per channel");
+    const std::size_t channels = first.getPixelSizeInBits() / 8u;
+    std::uint64_t pixels = 0;
+    for (unsigned int row = 0; row < static_cast<unsigned int>(first.t()); ++row)
+        for (unsigned int column = 0; column < static_cast<unsigned int>(first.s()); ++column)
+            pixels += std::memcmp(first.data(column, row), second.data(column, row), channels) != 0;
+    return pixels;
+}
 
 BenchViewer::BenchViewer(int width, int height, osgViewer::ViewerBase::ThreadingModel threading)
     : _capture(new flight::FrameCapture) {

@@ -9,9 +9,14 @@
 #include <osgViewer/Viewer>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
+
+/// How many pixels of two pictures, with 8 bits per channel, differ in a channel.
+/// Throws: Failure when the sizes or formats differ.
+[[nodiscard]] std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second);
 
 /// Milliseconds of one frame. The viewer's own statistics, drawing until the pixels are there.
 struct FrameTimes {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "Figures.h"
+#include "Bench.h"
 #include "Settings.h"
 #include "Table.h"
 

@@ -6,7 +6,6 @@
 #include "CullTimer.h"
 #include "Failure.h"
 #include "MethodScene.h"
-#include "PictureDifference.h"
 #include "ProgressLine.h"
 #include "TileTruth.h"
 #include "VerdictReplay.h"
@@ -219,7 +218,7 @@ private:
                                                                {"files_requested", visits[i].files},
                                                                {"bytes", visits[i].bytes}});
             addFalseVerdicts(row, census, needed, visible);
-            row["differing_pixels"] = report::differingPixels(*reference.picture, *visits[i].picture);
+            row["differing_pixels"] = differingPixels(*reference.picture, *visits[i].picture);
             row[kCullColumn] = times[i].warm.median;
             row["cull_spread_ms"] = times[i].warm.spread;
             row[kCullColdColumn] = times[i].cold.median;

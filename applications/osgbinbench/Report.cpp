@@ -3,10 +3,12 @@
 
 #include "Report.h"
 
+#include "BenchViewer.h"
 #include "CommandLine.h"
 #include "CsvTable.h"
 #include "Output.h"
-#include "PictureDifference.h"
+
+#include <osgDB/ReadFile>
 
 #include <filesystem>
 #include <fstream>
@@ -63,6 +65,22 @@ FlownFolder flownFrom(const std::string& folder) {
     return flown;
 }
 
+// Of two files.
+osg::ref_ptr<osg::Image> read(const std::string& file) {
+    osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(file);
+    if (!image) throw Failure(file + ": cannot be read as a picture");
+    return image;
+}
+
+std::uint64_t differingInFiles(const std::string& first, const std::string& second) {
+    const osg::ref_ptr<osg::Image> a = read(first), b = read(second);
+    try {
+        return differingPixels(*a, *b);
+    } catch (const Failure& failure) {
+        throw Failure(first + ", " + second + ": " + failure.what());
+    }
+}
+
 constexpr const char* kFooter =
     "Sums over all poses and over those whose names share the text before the first _. Tiles: tested_tiles = the cull\n"
     "traversal reached the tile; kept_tiles = it reached what is below; drawn_tiles = its own geometry was drawn.\n"
@@ -89,7 +107,7 @@ Measurement readFlights(const std::vector<std::string>& folders) {
         if (other.columns != reference.columns)
             throw Failure(folders[f] + ": its columns are not those of " + folders.front());
         for (std::size_t i = 0; i < other.poses.size(); ++i)
-            other.figures.rows[i][kPixelsColumn] = report::differingPixels(reference.pictures[i], other.pictures[i]);
+            other.figures.rows[i][kPixelsColumn] = differingInFiles(reference.pictures[i], other.pictures[i]);
         flown.methods.push_back(std::move(other.figures));
     }
     return flown;

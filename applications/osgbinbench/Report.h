@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "Bench.h"
 #include "Failure.h"
-#include "Figures.h"
 
 #include <string>
 #include <vector>

@@ -3,10 +3,10 @@
 
 #include "Settings.h"
 
+#include "Bench.h"
 #include "CommandLine.h"
 #include "CullMethod.h"
 #include "Failure.h"
-#include "Figures.h"
 #include "TextFile.h"
 #include "ThreadingName.h"
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "Bench.h"
+#include "CameraView.h"
 #include "Failure.h"
 #include "MethodScene.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "PathFiles.h"
 #include "Report.h"
 #include "ScaleCommand.h"
 #include "TextFile.h"

@@ -32,7 +32,6 @@ struct RasterFile {
     /// in place of the raster; 0 for none. Throws Failure.
     RasterFile(const Settings& settings, DemInput input, bool isElevation, double spacingDeg);
 
-    [[nodiscard]] bool isNorthUp() const noexcept { return isUnturned && transform[5] < 0.0; }
     /// Looks at parts of the raster, and at all of it where these have no height.
     /// Requires: elevation. Throws Failure where there is none, or it cannot be read.
     void requireHeights() const;

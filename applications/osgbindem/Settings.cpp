@@ -5,9 +5,8 @@
 
 #include "CommandLine.h"
 #include "Gdal.h"
+#include "GlmBridge.h"
 #include "TileLayout.h"
-
-#include <osg/CoordinateSystemNode>
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +58,9 @@ void setRadii(Settings& settings, double a, double b) {
         throw UsageError("radii " + std::to_string(a) + " and " + std::to_string(b) +
                          " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
     }
-    const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
+    const auto wgs84 = osgAnalyticBin::defaultEllipsoid();
     settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
-    settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
+    settings.isWgs84 = a == wgs84.equatorialRadius() && b == wgs84.polarRadius();
 }
 
 RectDeg regionOf(const std::vector<double>& edges) {
@@ -165,8 +164,7 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
 
 std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     Settings settings;
-    const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
-    setRadii(settings, wgs84->getRadiusEquator(), wgs84->getRadiusPolar());
+    settings.ellipsoid = osgAnalyticBin::defaultEllipsoid();
     std::vector<std::string> dems;
     std::vector<double> units;
     CLI::App app{kDescription, "osgbindem"};

@@ -96,7 +96,7 @@ std::optional<Globe> findGlobe(osg::Node& scene) {
 Globe globeOf(osg::Node& scene) {
     if (const auto map = mapOf(scene)) return *map;
     if (const auto globe = findGlobe(scene)) return *globe;
-    return {new osg::EllipsoidModel, osg::Matrixd()};
+    return defaultGlobe();
 }
 
 osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye, const osg::Vec3d& sight) {

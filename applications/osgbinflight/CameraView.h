@@ -10,7 +10,10 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace osgAnalyticBin::flight {
 
@@ -51,5 +54,18 @@ struct Globe {
 
 /// Gives a camera the view and the projection of a pose; OSG computes near and far planes where the pose has none.
 void placeCamera(osg::Camera& camera, const CameraPose& pose, const Globe& globe);
+
+/// OSG's default ellipsoid in world coordinates.
+[[nodiscard]] inline Globe defaultGlobe() {
+    return {new osg::EllipsoidModel, osg::Matrixd()};
+}
+
+/// Reads camera paths, one file or more, and joins them to one path: the first pose of each is one second after the
+/// last of the file before. A file that ends in .path is an animation path of OpenSceneGraph, as key z of its viewers
+/// records it: of that, a pose every half second while the camera moves, with their field of view, 29.15 degrees. All
+/// others are read by readCameraPath(). `globe`: asked for with the first .path, which is given in world coordinates.
+/// Throws: Failure when a file cannot be opened, or is broken, or two share a pose's name.
+[[nodiscard]] std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames,
+                                                          const std::function<Globe()>& globe = defaultGlobe);
 
 }  // namespace osgAnalyticBin::flight

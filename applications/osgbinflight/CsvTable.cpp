@@ -18,6 +18,14 @@ using support::Failure;
 
 namespace {
 
+// Without leading and trailing blanks.
+std::string trimmed(const std::string& text) {
+    constexpr const char* kBlanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
 std::vector<std::string> cellsOf(const std::string& line) {
     std::vector<std::string> cells;
     std::size_t start = 0;
@@ -84,13 +92,6 @@ std::string textFrom(double number) {
     std::array<char, 32> text{};
     const auto [stop, problem] = std::to_chars(text.data(), text.data() + text.size(), number);
     return problem == std::errc() ? std::string(text.data(), stop) : std::string("nan");
-}
-
-std::string trimmed(const std::string& text) {
-    constexpr const char* kBlanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
 }  // namespace osgAnalyticBin::flight

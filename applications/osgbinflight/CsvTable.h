@@ -42,7 +42,4 @@ struct CsvTable {
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string textFrom(double number);
 
-/// `text` without leading and trailing blanks.
-[[nodiscard]] std::string trimmed(const std::string& text);
-
 }  // namespace osgAnalyticBin::flight

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "PathFiles.h"
-
+#include "CameraView.h"
 #include "Failure.h"
 
 #include <osg/Quat>
@@ -92,10 +91,6 @@ std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& file
         }
     }
     return joined;
-}
-
-std::vector<CameraPose> readCameraPathFiles(const std::vector<std::string>& fileNames) {
-    return readCameraPathFiles(fileNames, []() -> Globe { return {new osg::EllipsoidModel, osg::Matrixd()}; });
 }
 
 }  // namespace osgAnalyticBin::flight

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CameraView.h"
 #include "CommandLine.h"
 #include "CsvTable.h"
 #include "Failure.h"
 #include "FrameCapture.h"
-#include "PathFiles.h"
 #include "Quantiles.h"
 #include "ReadCounter.h"
 #include "TextFile.h"

@@ -4,12 +4,12 @@
 #include "ProceduralGlobe.h"
 
 #include "Angles.h"
+#include "GlmBridge.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <osg/Geometry>
 
-#include <Relief.h>
 #include <algorithm>
 #include <cmath>
 
@@ -33,11 +33,6 @@ constexpr double kHighest = 20000.0;
 // Half diagonals from its middle at which a tile is refined.
 constexpr double kLod = 4.0;
 
-core::Ellipsoid wgs84() {
-    const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel;
-    return {model->getRadiusEquator(), model->getRadiusPolar()};
-}
-
 constexpr const char* kWkt =
     "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
     "UNIT[\"degree\",0.0174532925199433]]";
@@ -45,7 +40,7 @@ constexpr const char* kWkt =
 }  // namespace
 
 ProceduralGlobe::ProceduralGlobe(const GlobeOptions& options)
-    : _options(options), _layout(options.cells, options.levels, wgs84()), _terrain(GlobeOptions::kRelief) {}
+    : _options(options), _layout(options.cells, options.levels, defaultEllipsoid()), _terrain(GlobeOptions::kRelief) {}
 
 // How far the edge of a mesh may be above or below the terrain: heights between posts and their rounding, and the sag
 // of the chords.

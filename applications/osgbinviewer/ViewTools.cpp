@@ -3,6 +3,8 @@
 
 #include "ViewTools.h"
 
+#include "Nodes.h"
+
 #include <osg/Depth>
 #include <osg/LineWidth>
 #include <osg/MatrixTransform>
@@ -15,16 +17,6 @@
 namespace osgAnalyticBin::viewer {
 
 namespace {
-
-class BoundsComputer : public osg::NodeVisitor {
-public:
-    BoundsComputer() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
-
-    void apply(osg::Node& node) override {
-        traverse(node);
-        (void)node.getBound();
-    }
-};
 
 // From where a sphere fills the picture in the direction in which that is narrower.
 double distanceTo(double radius, const osg::Matrixd& projection) {
@@ -67,8 +59,7 @@ double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
 }  // namespace
 
 void computeBounds(osg::Node& node) {
-    BoundsComputer computer;
-    node.accept(computer);
+    support::forAllNodes(node, [](osg::Node& each) { (void)each.getBound(); });
 }
 
 HomeView homeViewOf(osg::Node& scene, const osg::Matrixd& projection) {

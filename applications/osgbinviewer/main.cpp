@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CameraView.h"
 #include "Failure.h"
 #include "FrameCapture.h"
 #include "Handlers.h"
 #include "ModuleFolder.h"
-#include "PathFiles.h"
 #include "Traffic.h"
 #include "ViewTools.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ImageBlocks.h"
+#include "PackedTerrain.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>

@@ -69,6 +69,9 @@ struct TerrainGrid {
     }
 };
 
+/// The colours of heights: blues below 0 m, greens to browns to white above.
+[[nodiscard]] const std::vector<TerrainGrid::ColourStop>& hypsometricStops();
+
 /// The colour of a height.
 [[nodiscard]] osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double height);
 

@@ -29,4 +29,9 @@ namespace osgAnalyticBin {
     return core::Ellipsoid(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar());
 }
 
+/// WGS 84 as OSG has it.
+[[nodiscard]] inline core::Ellipsoid defaultEllipsoid() {
+    return toCore(*osg::ref_ptr<osg::EllipsoidModel>(new osg::EllipsoidModel));
+}
+
 }  // namespace osgAnalyticBin

@@ -3,9 +3,7 @@
 
 #include "Tile.h"
 
-#include "ImageBlocks.h"
 #include "PackedTerrain.h"
-#include "Relief.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>

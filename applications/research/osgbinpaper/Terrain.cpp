@@ -4,9 +4,8 @@
 #include "Terrain.h"
 
 #include "Angles.h"
+#include "GlmBridge.h"
 #include "RasterLayer.h"
-
-#include <osg/CoordinateSystemNode>
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +30,8 @@ osgbindem::RectDeg extentOf(const std::string& dem) {
 
 }  // namespace
 
-core::Ellipsoid wgs84() {
-    const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel;
-    return {model->getRadiusEquator(), model->getRadiusPolar()};
-}
-
 Terrain::Terrain(const std::string& dem, int deepestLevel)
-    : _ellipsoid(wgs84()),
+    : _ellipsoid(defaultEllipsoid()),
       _mosaic(settingsFor(dem)),
       _extent(extentOf(dem)),
       _heights(static_cast<std::size_t>(deepestLevel) + 1) {

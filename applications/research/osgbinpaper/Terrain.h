@@ -16,9 +16,6 @@ namespace osgAnalyticBin::paper {
 
 using osgbindem::TileId;
 
-/// The ellipsoid of a default osg::EllipsoidModel.
-[[nodiscard]] core::Ellipsoid wgs84();
-
 /// The globe that an elevation raster describes; 0 m where it has no data.
 class Terrain final {
 public:

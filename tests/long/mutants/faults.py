@@ -973,9 +973,9 @@ FAULTS = [
           NODE, "AutoIndex.*"),
 
     # colours of heights
-    Fault("relief: light from the south-east", "applications/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
+    Fault("relief: light from the south-east", "applications/packed/TerrainGrid.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
           PACKED, "TerrainGrid.*"),
-    Fault("relief: snow in the sea", "applications/packed/Relief.cpp", "height <= 0.0 || height <= snowLine", "height <= snowLine", PACKED,
+    Fault("relief: snow in the sea", "applications/packed/TerrainGrid.cpp", "height <= 0.0 || height <= snowLine", "height <= snowLine", PACKED,
           "TerrainGrid.*"),
     Fault("relief: packed grids forget it", "applications/packed/TerrainGridFile.cpp", "grid.relief = reader.byte() != 0",
           "grid.relief = reader.byte() > 1", PACKED, "TerrainGrid.*"),

@@ -6,8 +6,8 @@
 
 #include "Traffic.h"
 
+#include "CameraView.h"
 #include "FrameCapture.h"
-#include "PathFiles.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 

@@ -4,7 +4,7 @@
 // Camera paths as text, and the frames of a continuous flight. Oracle: values worked out by hand. The table
 // format itself is tested here too.
 
-#include "PathFiles.h"
+#include "CameraView.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 // tile and frustum from the core, a point in both from sampling. At the end the program from outside.
 
 #include "Experiment.h"
+#include "GlmBridge.h"
 #include "Terrain.h"
 #include "TileTree.h"
 
@@ -58,14 +59,14 @@ TEST(TileTree, NoTileIsBothOutsideAndSeenAndAWitnessIsAPointOfTheTileInTheFrustu
     for (std::size_t view = 0; view < 2 * kViewKinds.size(); ++view) {
         const Camera camera = randomCamera(terrain, view / 2, view % 2);
         for (const TreeTile& tile : TileTree(terrain, camera).tiles) {
-            const auto found = findWitness(wgs84(), tile.box, camera);
+            const auto found = findWitness(defaultEllipsoid(), tile.box, camera);
             EXPECT_FALSE(tile.isOutside && found);
             outside += tile.isOutside ? 1U : 0U;
             seen += found ? 1U : 0U;
             if (!tile.witness) continue;
             EXPECT_TRUE(tile.box.contains(tile.witness->position));
             for (const core::Plane& plane : camera.planes())
-                EXPECT_GE(plane.distance(wgs84().toEcef(tile.witness->position)), tile.witness->depth);
+                EXPECT_GE(plane.distance(defaultEllipsoid().toEcef(tile.witness->position)), tile.witness->depth);
             EXPECT_GT(tile.witness->depth, 0.0);
         }
     }
@@ -119,8 +120,8 @@ TEST_F(Experiment, CornersAndThePublishedRuleCullWhatIsSeenAndTheWorstCullIsAPro
         EXPECT_TRUE(worst->isHole);
         EXPECT_TRUE(worst->box.contains(worst->witness.position));
         for (const core::Plane& plane : worst->camera.planes())
-            EXPECT_GE(plane.distance(wgs84().toEcef(worst->witness.position)), worst->witness.depth);
-        EXPECT_EQ(TileBins(wgs84(), worst->box).classify(method, Frustum(worst->camera)), core::Side::Outside);
+            EXPECT_GE(plane.distance(defaultEllipsoid().toEcef(worst->witness.position)), worst->witness.depth);
+        EXPECT_EQ(TileBins(defaultEllipsoid(), worst->box).classify(method, Frustum(worst->camera)), core::Side::Outside);
     }
 }
 
