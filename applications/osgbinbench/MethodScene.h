@@ -6,7 +6,6 @@
 #include "CameraPath.h"
 #include "CameraView.h"
 #include "CullMethod.h"
-#include "CullWatcher.h"
 #include "Failure.h"
 #include "ReadCounter.h"
 #include "Settings.h"

@@ -4,9 +4,8 @@
 #include "VerdictReplay.h"
 
 #include "ClusterCallbacks.h"
-#include "CullMethod.h"
-#include "Failure.h"
 #include "Nodes.h"
+#include "TileCensus.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
@@ -87,13 +86,6 @@ void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp) {
         if (isKept && acceptsAll(node)) filter(*node.asGroup(), kept);
         return isKept;
     });
-}
-
-void requireSameTiles(const flight::Census& replay, const flight::Census& original, const std::string& pose) {
-    if (replay.keys() == original.keys() && replay.drawables == original.drawables) return;
-    throw support::Failure("pose " + pose + ": " + kOracleMethod + " draws other tiles (" +
-                           std::to_string(replay.tiles.size()) + ") than " + kReplayedMethod + " (" +
-                           std::to_string(original.tiles.size()) + "); leave " + kOracleMethod + " out");
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -3,12 +3,8 @@
 
 #pragma once
 
-#include "TileCensus.h"
-
 #include <osg/Camera>
 #include <osg/FrameStamp>
-
-#include <string>
 
 namespace osgAnalyticBin::bench {
 
@@ -18,8 +14,5 @@ namespace osgAnalyticBin::bench {
 /// for the tiles kept, and nothing for the tests. Requires: a scene with bins, all files loaded. The scene
 /// serves this view alone; read it again for another.
 void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp);
-
-/// Throws: Failure when a replay draws other tiles or drawables at a pose than what it repeats.
-void requireSameTiles(const flight::Census& replay, const flight::Census& original, const std::string& pose);
 
 }  // namespace osgAnalyticBin::bench

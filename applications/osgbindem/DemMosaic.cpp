@@ -5,14 +5,15 @@
 
 #include "Failure.h"
 #include "RasterLayer.h"
-#include "VoidFill.h"
 
+#include <gdal_alg.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -80,6 +81,49 @@ private:
     std::unique_ptr<OGRCoordinateTransformation> _transformation;
 };
 
+namespace {
+
+/// Posts along the side of a block of a layer.
+constexpr int kBlock = 256;
+// Posts across a narrow void, at most.
+constexpr int kWidest = 16;
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+constexpr GByte kYes = 255;
+// Passes of GDAL's 3 x 3 mean over interpolated posts; each widens by one post what a height depends on.
+constexpr int kSmoothing = 4;
+// What is read around a block: all that the posts at its edge depend on.
+constexpr int kBorder = kWidest + kSmoothing + 1;
+
+void require(CPLErr error) {
+    if (error != CE_None) throw Failure("cannot fill missing heights: " + gdalMessage());
+}
+
+/// A square of posts as a raster of GDAL's, which works in their memory.
+template <class Number>
+GdalDataset planeOf(std::vector<Number>& numbers, int width, GDALDataType type) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
+    const int height = static_cast<int>(numbers.size()) / width;
+    GdalDataset plane(driver == nullptr ? nullptr : driver->Create("", width, height, 0, type, nullptr));
+    CPLStringList words;
+    words.SetNameValue("DATAPOINTER", CPLSPrintf("%p", static_cast<void*>(numbers.data())));
+    require(plane ? plane->AddBand(type, words.List()) : CE_Failure);
+    return plane;
+}
+
+/// Whether posts are farther away than `reach` from all that are marked.
+std::vector<GByte> farFrom(std::vector<GByte> marks, int width, int reach) {
+    std::vector<GByte> isFar(marks.size());
+    const GdalDataset marked = planeOf(marks, width, GDT_Byte);
+    const GdalDataset result = planeOf(isFar, width, GDT_Byte);
+    CPLStringList options(
+        CSLTokenizeString(CPLSPrintf("VALUES=%d MAXDIST=%d FIXED_BUF_VAL=0 NODATA=%d", kYes, reach, kYes)));
+    require(GDALComputeProximity(marked->GetRasterBand(1), result->GetRasterBand(1), options.List(), nullptr, nullptr));
+    return isFar;
+}
+
+}  // namespace
+
 /// One layer of elevation rasters. Not for use by several threads: each has its own.
 class DemSource final {
 public:
@@ -107,8 +151,7 @@ public:
     DemSource(std::unique_ptr<RasterLayer> layer, const std::string& geoid, std::shared_ptr<Blocks> blocks)
         : _layer(std::move(layer)),
           _shift(_layer->file().vertical, geoid, _layer->file().input.path),
-          _blocks(std::move(blocks)),
-          _voids{grid(), [this](int column, int row) { return post(column, row); }} {}
+          _blocks(std::move(blocks)) {}
     DemSource(const DemSource&) = delete;
     DemSource& operator=(const DemSource&) = delete;
 
@@ -179,17 +222,17 @@ public:
 
 private:
     /// The first post of the next block.
-    [[nodiscard]] static int nextBlock(int place) { return (place / VoidFill::kBlock + 1) * VoidFill::kBlock; }
+    [[nodiscard]] static int nextBlock(int place) { return (place / kBlock + 1) * kBlock; }
     [[nodiscard]] const std::shared_ptr<Block>& blockWith(int column, int row) {
         if (_last && _last->window.contains(column, row)) return _last;
-        const int west = nextBlock(column) - VoidFill::kBlock;
-        const int first = nextBlock(row) - VoidFill::kBlock;
+        const int west = nextBlock(column) - kBlock;
+        const int first = nextBlock(row) - kBlock;
         const std::tuple place(this, west, first);
         const auto known = _blocks->blocks.find(place);
         if (known != _blocks->blocks.end()) return _last = known->second;
         osgAnalyticBin::support::throwIfStopRequested();
-        const PixelWindow window{west, first, std::min(VoidFill::kBlock, grid().columns() - west),
-                                 std::min(VoidFill::kBlock, grid().rows() - first)};
+        const PixelWindow window{west, first, std::min(kBlock, grid().columns() - west),
+                                 std::min(kBlock, grid().rows() - first)};
         std::vector<double> heights(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
         const CPLErr error = _layer->dataset().GetRasterBand(1)->RasterIO(GF_Read, west, first, window.width,
                                                                           window.height, heights.data(), window.width,
@@ -207,8 +250,49 @@ private:
     /// What stands at a post without data; NaN in a wide void.
     [[nodiscard]] double filled(int column, int row) {
         const std::shared_ptr<Block> block = blockWith(column, row);
-        if (block->fill.empty()) block->fill = _voids.filled(block->window);
+        if (block->fill.empty()) block->fill = fillOf(block->window);
         return static_cast<double>(block->fill[block->place(column, row)]);
+    }
+    /// What stands in the voids of a block, row by row; NaN in wide ones. Throws Failure.
+    /// Interpolates narrow voids, posts without data between posts with data, from their rims: GDALFillNodata(). A void
+    /// is narrow where no disc as wide as kWidest fits in between the data; along the raster's border it is wide.
+    /// Each block is filled from the posts around it, so a height depends on the raster alone and not on what was asked
+    /// before.
+    [[nodiscard]] std::vector<float> fillOf(const PixelWindow& block) {
+        const int width = block.width + 2 * kBorder;
+        std::vector<float> heights;
+        for (int row = block.row - kBorder; row < block.row + block.height + kBorder; ++row) {
+            for (int x = block.column - kBorder; x < block.column + block.width + kBorder; ++x) {
+                const int column = grid().isGlobal() ? (x + grid().columns()) % grid().columns() : x;
+                const bool isThere = column >= 0 && column < grid().columns() && row >= 0 && row < grid().rows();
+                heights.push_back(isThere ? static_cast<float>(post(column, row)) : kVoid);
+            }
+        }
+        std::vector<GByte> isKnown;
+        for (const float height : heights) isKnown.push_back(std::isnan(height) ? 0 : kYes);
+        if (std::find(isKnown.begin(), isKnown.end(), kYes) == isKnown.end())
+            return std::vector(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kVoid);
+        // Discs fit in between the data where posts are far from it. What they do not reach is narrow, a rim apart that
+        // is jagged by posts.
+        constexpr int kHalf = kWidest / 2;
+        constexpr int kJags = 2;
+        const std::vector<GByte> isNarrow = farFrom(farFrom(isKnown, width, kHalf), width, kHalf + kJags);
+        std::vector<float> values = heights;
+        std::replace_if(
+            values.begin(), values.end(), [](float height) { return std::isnan(height); }, 0.0F);
+        const GdalDataset plane = planeOf(values, width, GDT_Float32);
+        const GdalDataset mask = planeOf(isKnown, width, GDT_Byte);
+        CPLStringList options(CSLTokenizeString("TEMP_FILE_DRIVER=MEM"));
+        require(GDALFillNodata(plane->GetRasterBand(1), mask->GetRasterBand(1), kWidest, 0, kSmoothing, options.List(),
+                               nullptr, nullptr));
+        std::vector<float> result;
+        for (int row = 0; row < block.height; ++row) {
+            for (int column = 0; column < block.width; ++column) {
+                const auto i = static_cast<std::size_t>((row + kBorder) * width + column + kBorder);
+                result.push_back(isNarrow[i] == kYes ? values[i] : kVoid);
+            }
+        }
+        return result;
     }
     /// Calls `visit(column, row, height)` for each post, block by block, as long as it returns true.
     template <typename Visit>
@@ -231,7 +315,6 @@ private:
     VerticalShift _shift;
     std::shared_ptr<Blocks> _blocks;
     std::shared_ptr<Block> _last;
-    VoidFill _voids;
 };
 
 namespace {
@@ -240,7 +323,7 @@ namespace {
 std::size_t blocksPerThread(const Settings& settings) {
     constexpr double kFewest = 16.0;
     constexpr double kMost = 45.0;  // more save no time
-    constexpr double kBytes = sizeof(double) * VoidFill::kBlock * VoidFill::kBlock;
+    constexpr double kBytes = sizeof(double) * kBlock * kBlock;
     const double blocks = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads.value_or(1) / kBytes;
     return static_cast<std::size_t>(std::clamp(blocks, kFewest, kMost));
 }

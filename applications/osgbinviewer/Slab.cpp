@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Slab.h"
-
 #include "GlmBridge.h"
 #include "ViewTools.h"
 

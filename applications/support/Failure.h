@@ -5,7 +5,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <exception>
 #include <functional>
+#include <iostream>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -56,6 +59,22 @@ enum ExitCode : int {
 
 /// Runs a program and prints what it throws as one line on stderr, the program's name before it.
 /// Returns: the exit code, which `run` returns or what it throws stands for.
-[[nodiscard]] ExitCode runProgram(const std::string& name, const std::function<ExitCode()>& run);
+[[nodiscard]] inline ExitCode runProgram(const std::string& name, const std::function<ExitCode()>& run) {
+    const auto complain = [&name](const std::exception& error, ExitCode code) {
+        std::cerr << name + ": " + error.what() + '\n' << std::flush;
+        return code;
+    };
+    try {
+        return run();
+    } catch (const Interrupted& error) {
+        return complain(error, kInterrupted);
+    } catch (const UsageError& error) {
+        return complain(error, kWrongUsage);
+    } catch (const std::bad_alloc&) {
+        return complain(Failure("out of memory; use fewer --threads, or close other programs"), kFailed);
+    } catch (const std::exception& error) {
+        return complain(error, kFailed);
+    }
+}
 
 }  // namespace osgAnalyticBin::support

@@ -4,7 +4,6 @@
 //
 // Slabs as they are drawn. Oracle: the exact bin, and pictures.
 
-#include "Slab.h"
 #include "ViewTools.h"
 #include "ViewerFixture.h"
 
