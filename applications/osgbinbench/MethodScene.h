@@ -83,6 +83,13 @@ public:
     /// The view of the camera. Requires: load().
     void setPose(const flight::CameraPose& pose) { flight::placeCamera(*_camera, pose, _globe); }
 
+    /// Makes the scene repeat, without a test, what bins decide at the present view. One cull traversal is
+    /// recorded; then bins and cluster callbacks are taken off, and each group accepts only the children that the
+    /// traversal went into or drew, whose spheres and boxes are not tested either. So the next cull traversals cost
+    /// what OSG takes for the tiles kept, and nothing for the tests. Requires: bins, all files loaded. The scene serves
+    /// this view alone; load() it again for another.
+    void replayVerdicts();
+
     /// What to throw when files are still missing at a pose after the timeout.
     [[nodiscard]] support::Failure lateAt(const flight::CameraPose& pose) const;
 

@@ -8,7 +8,6 @@
 #include "MethodScene.h"
 #include "ProgressLine.h"
 #include "TileTruth.h"
-#include "VerdictReplay.h"
 
 #include <osg/ClearNode>
 #include <osg/MatrixTransform>
@@ -162,7 +161,7 @@ private:
         scene.pause();
         visit.files = _watch.nodeFiles() - files;
         visit.bytes = _watch.nodeBytes() - bytes;
-        if (scene.method().replaysVerdicts) replayVerdicts(scene.camera(), scene.frameStamp());
+        if (scene.method().replaysVerdicts) scene.replayVerdicts();
         visit.census = scene.census();
         visit.residentTiles = flight::residentTiles(scene.root());
         visit.picture = _viewer.pictureOf(scene.root(), scene.camera(), scene.camera().getCullingMode());

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "Commands.h"
-#include "DiskFile.h"
 #include "Failure.h"
 #include "ProgressLine.h"
 #include "RecordStream.h"

@@ -3,9 +3,9 @@
 
 #include "DatabaseBuilder.h"
 
-#include "DiskFile.h"
 #include "Failure.h"
 #include "RasterFile.h"
+#include "TextFile.h"
 
 #include <cpl_string.h>
 #include <ogr_srs_api.h>

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "DiskFile.h"
 #include "TextFile.h"
 #include "TileLayout.h"
 

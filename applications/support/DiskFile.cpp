@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DiskFile.h"
-
 #include "Failure.h"
+#include "TextFile.h"
 
 #include <cerrno>
 #include <cstring>

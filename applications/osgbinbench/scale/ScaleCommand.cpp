@@ -12,7 +12,6 @@
 #include "Quantiles.h"
 #include "Table.h"
 #include "TextFile.h"
-#include "VerdictReplay.h"
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -21,7 +20,7 @@
 #include <osgDB/ReadFile>
 
 #include <GlobeOptions.h>
-#include <ProceduralTerrain.h>
+#include <ProceduralGlobe.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -249,7 +248,7 @@ Rows measureDepth(const Settings& settings, FileWatch& watch) {
             // a replay serves one view alone
             if (isReplayed && pose > 0) scene.load();
             settle(scene, paths[i][static_cast<std::size_t>(pose)]);
-            if (isReplayed) bench::replayVerdicts(scene.camera(), scene.frameStamp());
+            if (isReplayed) scene.replayVerdicts();
             addCounts(scene, rows[i]);
         }
         addTimes(scenes, settings.rounds, rows);
@@ -283,7 +282,7 @@ Rows measureResidents(const Settings& settings, FileWatch& watch) {
             settle(scene, view);
             const std::size_t pagedLods = fill(scene, view, static_cast<std::size_t>(residents)).second;
             rows.push_back({{"paged_lods", pagedLods}, {"method", method.name}});
-            if (method.replaysVerdicts) bench::replayVerdicts(scene.camera(), scene.frameStamp());
+            if (method.replaysVerdicts) scene.replayVerdicts();
             addCounts(scene, rows.back());
         }
     }

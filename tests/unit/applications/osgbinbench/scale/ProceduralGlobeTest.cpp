@@ -3,7 +3,6 @@
 
 #include "GlobeOptions.h"
 #include "ProceduralGlobe.h"
-#include "ProceduralTerrain.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>

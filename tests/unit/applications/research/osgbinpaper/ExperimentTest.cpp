@@ -121,7 +121,8 @@ TEST_F(Experiment, CornersAndThePublishedRuleCullWhatIsSeenAndTheWorstCullIsAPro
         EXPECT_TRUE(worst->box.contains(worst->witness.position));
         for (const core::Plane& plane : worst->camera.planes())
             EXPECT_GE(plane.distance(defaultEllipsoid().toEcef(worst->witness.position)), worst->witness.depth);
-        EXPECT_EQ(TileBins(defaultEllipsoid(), worst->box).classify(method, Frustum(worst->camera)), core::Side::Outside);
+        EXPECT_EQ(TileBins(defaultEllipsoid(), worst->box).classify(method, Frustum(worst->camera)),
+                  core::Side::Outside);
     }
 }
 
