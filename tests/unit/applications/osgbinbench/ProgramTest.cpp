@@ -3,8 +3,8 @@
 //
 // The program on a small paged globe, on a virtual display. Skipped where xvfb-run is not installed.
 
+#include "Bench.h"
 #include "BenchProgram.h"
-#include "Figures.h"
 
 #include <gtest/gtest.h>
 #include <osgDB/WriteFile>
