@@ -68,14 +68,17 @@ on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
     --methods "sphere,cluster,quadratic+horizon+edges,$default" --size 640x360 --repeats 8 \
     --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
-step "Frames of flights"
-for threading in SingleThreaded DrawThreadPerContext; do
-    for path in helicopter approach; do
-        on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path "data/paths/$path.csv" --frames 150 --draw \
-            --threading "$threading" --methods "sphere,cluster,$default" --size 640x360 \
-            --json "$out/frames_${path}_$threading.json" >"$out/frames_${path}_$threading.txt"
-    done
+step "Frames of flights, whole and with a driver that draws nothing"
+draw_frames() { # GALLIUM_NOOP, path, threading, name
+    on_display env GALLIUM_NOOP="$1" "$build/bin/osgbinbench" "$out/earth.osgb" --path "data/paths/$2.csv" \
+        --frames 100 --draw --threading "$3" --methods "sphere,cluster,$default" --size 640x360 \
+        --json "$out/frames_$2_$4.json" >"$out/frames_$2_$4.txt"
+}
+for path in helicopter approach; do
+    draw_frames 0 "$path" SingleThreaded "one thread"
+    draw_frames 0 "$path" DrawThreadPerContext "draw thread"
 done
+for path in helicopter approach valley rockies; do draw_frames 1 "$path" SingleThreaded "processor"; done
 
 step "Jumps, from disk and over a line of 20 ms"
 jumps="--path data/paths/demo.csv --jumps --size 640x360 --methods $peers,quadratic+horizon+edges,$default"

@@ -72,17 +72,18 @@ def low_views(sums, methods):
 
 
 def frames(figures):
-    yield (["flight", "threads", "method"] +
+    yield (["flight", "what", "method"] +
            [f"{what}, ms: {part}" for what in ("work", "frame") for part in ("1st percentile", "median", "99th")] +
            [f"all {what} / {peer}" for what in ("work", "frames") for peer in ("sphere", "cluster")])
-    for flight in ("helicopter", "approach"):
-        for threads in ("SingleThreaded", "DrawThreadPerContext"):
-            methods = json.loads((figures / f"frames_{flight}_{threads}.json").read_text())["methods"]
+    for what in ("one thread", "draw thread", "processor"):
+        for flight in ("helicopter", "approach", "valley", "rockies"):
+            file = figures / f"frames_{flight}_{what}.json"
+            methods = json.loads(file.read_text())["methods"] if file.exists() else {}
             work = {method: sums["cull_ms"] + sums["draw_ms"] for method, sums in methods.items()}
             for method, sums in methods.items():
-                yield ([flight, threads, method] +
-                       [f"{sums[f'{what}_{part}_ms']:.1f}" for what in ("work", "frame")
-                        for part in ("1st", "median", "99th")] +
+                yield ([flight, what, method] +
+                       [f"{sums[f'{part}_{at}_ms']:.3g}" for part in ("work", "frame")
+                        for at in ("1st", "median", "99th")] +
                        [f"{work[method] / work[peer]:.2f}" for peer in ("sphere", "cluster")] +
                        [f"{sums['frame_ms'] / methods[peer]['frame_ms']:.2f}" for peer in ("sphere", "cluster")])
 
