@@ -49,6 +49,13 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/kit/cull/SelectionWalk.cpp",
           "verdicts.members & ~culled & family.block().partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
+    Fault("planes that a bin has decided stay so for callbacks in front", "src/kit/cull/CullScopes.h",
+          "setUndecided(cullStack->getCurrentCullingSet().getFrustum(), before);",
+          "cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);", SCENES,
+          NAMED + "/callback-in-front.scene"),
+    Fault("planes of the database stay undecided for callbacks in front", "src/kit/database/DatabaseCallbacks.cpp",
+          "frustum().getCurrentMask() = _before;", "(void)_before;", SCENES,
+          NAMED + "/callback-in-front-of-globe.scene"),
     Fault("added tiles share what is found of one", "src/kit/database/Database.cpp",
           "if (tile.isAttached) return;", "", NODE, "AddedTiles.HaveBins*"),
     Fault("tiles follow the Terrain above them alone", "src/kit/install/BinInstaller.cpp",

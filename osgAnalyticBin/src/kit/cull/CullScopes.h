@@ -182,8 +182,8 @@ void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traver
         const PlanesBelow planes(*cullStack, cullStack->getCurrentCullingSet().getFrustum().getCurrentMask());
         traverse();
     }
-    // not for siblings
-    cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);
+    // neither for siblings nor for callbacks in front
+    setUndecided(cullStack->getCurrentCullingSet().getFrustum(), before);
 }
 
 }  // namespace osgAnalyticBin

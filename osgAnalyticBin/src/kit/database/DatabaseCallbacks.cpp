@@ -53,11 +53,24 @@ bool mayRest(osg::NodeVisitor& visitor, const CullTraversal& traversal, const Te
            !traversal.hiding.isInUse(visitor) && shape.verticalScale == 1.0 && shape.techniqueMargin == 0.0;
 }
 
-// Culled or kept siblings before the database leave a part of the planes behind.
-void beginWithAllPlanes(osg::CullStack& cullStack) {
-    osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
-    setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
-}
+// While it exists, all planes are undecided: culled or kept siblings before the database leave a part of them behind.
+class WithAllPlanes {
+public:
+    explicit WithAllPlanes(osg::CullStack& cullStack) : _cullStack(cullStack), _before(frustum().getCurrentMask()) {
+        setUndecided(frustum(),
+                     static_cast<core::PlaneMask>((std::uint64_t{1} << frustum().getPlaneList().size()) - 1));
+    }
+    // for callbacks in front
+    ~WithAllPlanes() { frustum().getCurrentMask() = _before; }
+    WithAllPlanes(const WithAllPlanes&) = delete;
+    WithAllPlanes& operator=(const WithAllPlanes&) = delete;
+
+private:
+    [[nodiscard]] osg::Polytope& frustum() const { return _cullStack.getCurrentCullingSet().getFrustum(); }
+
+    osg::CullStack& _cullStack;
+    const core::PlaneMask _before;
+};
 
 // In a cull traversal, which others may run at the same time. The next update traversal comes after all of them.
 void putUpdateCallback(osg::Node& node, Database& database, const osg::Node* attachedTo) {
@@ -133,7 +146,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                                         ? traversal.lastView(*_database, nv).databaseRest.next(_database->arrivals())
                                         : DatabaseRest::Turn::Bins;
     if (turn == DatabaseRest::Turn::Osg) return leaveToOsg(node, nv);
-    beginWithAllPlanes(cullStack);
+    const WithAllPlanes planes(cullStack);
     DatabaseView view{node,
                       nv,
                       traversal,
