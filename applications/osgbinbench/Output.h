@@ -39,8 +39,8 @@ struct Diagram {
 [[nodiscard]] std::vector<Diagram> diagramsOf(const Measurement& measured);
 
 /// Writes NAME.csv of each diagram and bars.gp to a folder, which is made if it is missing, and has gnuplot draw
-/// NAME.svg and NAME.png there. Throws: Failure when a file cannot be written, gnuplot is not installed or does not
-/// succeed; the data and the script are there when only the drawing failed.
+/// NAME.svg and NAME.png there. Throws: Failure when a file cannot be written, or when gnuplot is not installed or
+/// fails; then the data and the script are there.
 void plot(const std::string& folder, const std::vector<Diagram>& diagrams);
 
 /// One below the other.

@@ -62,8 +62,8 @@ struct SurveyedTile;
 /// written below "earth_tiles.partial", which takes the place of "earth_tiles" when everything is there; the root file
 /// comes last. So a root file always belongs to a complete database, and an older database of the same name stays
 /// whole until then. The folder "state" beside the tiles says what they are built from and holds a record of each task
-/// of the work plan, written after the task's tiles: a later run goes on from it, programs on several machines share
-/// it, and an update takes over from it what stays.
+/// of the work plan, written after the task's tiles: a later run continues with the tasks that have none, programs on
+/// several machines share them, and an update keeps the tiles of tasks that have not changed.
 class DatabaseFolder final {
 public:
     /// Throws Failure when no database can be there.

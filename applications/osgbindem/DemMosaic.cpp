@@ -272,8 +272,8 @@ private:
         for (const float height : heights) isKnown.push_back(std::isnan(height) ? 0 : kYes);
         if (std::find(isKnown.begin(), isKnown.end(), kYes) == isKnown.end())
             return std::vector(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kVoid);
-        // Discs fit in between the data where posts are far from it. What they do not reach is narrow, a rim apart that
-        // is jagged by posts.
+        // Around each post that is half a void's width from all data lies a disc without data. A post that no such disc
+        // reaches is in a narrow void; the jags allow for rims that follow the posts.
         constexpr int kHalf = kWidest / 2;
         constexpr int kJags = 2;
         const std::vector<GByte> isNarrow = farFrom(farFrom(isKnown, width, kHalf), width, kHalf + kJags);

@@ -67,7 +67,7 @@ public:
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _grid; }
     /// Between posts of the file, the smaller distance.
     [[nodiscard]] double spacingDeg() const noexcept { return std::min(_file.eastDeg, _file.northDeg); }
-    /// Where heights give way to coarser ones.
+    /// The band in which the raster's heights are blended with coarser ones.
     [[nodiscard]] const BlendBand& band() const noexcept { return _band; }
 
 private:

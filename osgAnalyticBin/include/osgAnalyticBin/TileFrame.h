@@ -53,6 +53,9 @@ struct FoundTile {
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string pagedFilePath(const std::string& referringFile,
                                                               const std::string& name);
 
+/// The frame of the content of a file that a node in `frame` pages under this name. `isTile`: the node is a tile.
+[[nodiscard]] OSGANALYTICBIN_EXPORT TileFrame pagedFrame(const TileFrame& frame, const std::string& name, bool isTile);
+
 /// Whether an ellipsoid's radii, metres, are finite and positive. A CoordinateSystemNode with other radii is not
 /// treated as a globe, and the nodes below it are not its tiles.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasValidRadii(const osg::EllipsoidModel& ellipsoid);

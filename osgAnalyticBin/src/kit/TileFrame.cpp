@@ -37,6 +37,14 @@ bool areValidRadii(double equatorial, double polar) {
     return isValid(equatorial) && isValid(polar);
 }
 
+TileFrame pagedFrame(const TileFrame& frame, const std::string& name, bool isTile) {
+    TileFrame inside = frame;
+    inside.file = pagedFilePath(frame.file, name);
+    inside.isBelowTile = frame.isBelowTile || isTile;
+    inside.isAttached = false;
+    return inside;
+}
+
 bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
     return areValidRadii(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar());
 }

@@ -74,7 +74,7 @@ FAULTS = [
     Fault("families: children that are taken away are there", "src/kit/cull/TileFamily.cpp",
           "children.count(node.get()) > 0", "!children.empty()", SCENES, NAMED),
     Fault("evidence: what is culled as a cluster is drawn", "src/kit/cull/CullCallbacks.h",
-          "cullsClusters = true;", "(void)at;", NODE, "Evidence.*"),
+          "isForClusters = true;", "(void)at;", NODE, "Evidence.*"),
     Fault("ground: the triangles below one eye serve for all", "src/kit/cull/GroundBelow.cpp",
           "column.sidesBeyond(point + top * up)) == 0", "column.sidesBeyond(point + top * up)) < 99", NODE, "Evidence.*"),
     Fault("ground: a column with fewer triangles is as wide", "src/kit/cull/GroundBelow.cpp",

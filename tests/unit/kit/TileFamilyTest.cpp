@@ -32,7 +32,7 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
     osgUtil::Optimizer optimizer;
     optimizer.optimize(globe.root.get());
     globe.expectAntipode(false);
-    // one that is looked at again is where it was
+    // a mesh that has not moved is still found in its place when it is looked at again
     auto& vertices = verticesOf(*globe.tiles[19]);
     vertices.dirty();
     drawableOf(*globe.tiles[19])->dirtyBound();

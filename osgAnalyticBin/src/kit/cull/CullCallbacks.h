@@ -31,7 +31,7 @@ struct CullCallbacks {
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (isExactly<osg::ClusterCullingCallback>(*at)) {
-                cullsClusters = true;
+                isForClusters = true;
             } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
             } else if (!isHarmless(*at) && isForeign(*at)) {
@@ -43,7 +43,7 @@ struct CullCallbacks {
     const AnalyticBinCullCallback* bin = nullptr;
     const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
-    bool cullsClusters = false;  ///< one may leave out what is below, where OSG culls clusters
+    bool isForClusters = false;  ///< one leaves out what is below where cullsClusters()
     bool isUnknown = false;      ///< one that may leave out may also draw otherwise
 };
 

@@ -56,10 +56,15 @@ private:
     const osg::CullSettings::CullingMode _mode;
 };
 
+/// Whether ClusterCullingCallbacks cull in the traversal.
+[[nodiscard]] inline bool cullsClusters(const osg::CullSettings& settings) {
+    return (settings.getCullingMode() & osg::CullSettings::CLUSTER_CULLING) != 0;
+}
+
 /// Whether a callback culls nothing in the traversal, because it is for clusters, and stands alone.
 [[nodiscard]] inline bool isIdle(const osg::Callback& callback, const osg::CullSettings& settings) {
     return isExactly<osg::ClusterCullingCallback>(callback) && !callback.getNestedCallback() &&
-           !(settings.getCullingMode() & osg::CullSettings::CLUSTER_CULLING);
+           !cullsClusters(settings);
 }
 
 /// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no

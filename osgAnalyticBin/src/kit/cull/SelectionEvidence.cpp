@@ -68,8 +68,7 @@ DrawnState SelectionWalk::stateOf(const osg::Node& node) const {
 // Where the application keeps its callbacks for clusters, or in a map, they cull. Where bins replace them they are
 // idle.
 bool SelectionWalk::mayLeaveOut(const CullCallbacks& callbacks) const {
-    return callbacks.mayLeaveOut ||
-           (callbacks.cullsClusters && (_view.cullStack.getCullingMode() & osg::CullSettings::CLUSTER_CULLING));
+    return callbacks.mayLeaveOut || (callbacks.isForClusters && cullsClusters(_view.cullStack));
 }
 
 // For evidence, below what OSG enters by itself. The families there begin segments.

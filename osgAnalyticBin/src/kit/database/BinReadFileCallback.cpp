@@ -70,11 +70,7 @@ std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& 
     std::vector<PagedFile> files;
     for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
         if (node.getFileName(i).empty()) continue;
-        TileFrame inside = frame;
-        inside.file = pagedFilePath(frame.file, node.getFileName(i));
-        inside.isBelowTile = inside.isBelowTile || isTile;
-        inside.isAttached = false;
-        files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
+        files.push_back({node.getDatabasePath() + node.getFileName(i), pagedFrame(frame, node.getFileName(i), isTile)});
     }
     return files;
 }

@@ -85,10 +85,10 @@ public:
 
     /// How deep the bins of a tile and of all tiles above it are.
     struct Depth {
-        /// Metres that they count for skirts below them, at least. Infinity: all of them hold the skirts of what is
-        /// below already.
+        /// The least length of skirts, in metres, that one of them has room for below it. Infinity: all of them hold
+        /// the skirts of what is below already.
         double skirt = std::numeric_limits<double>::infinity();
-        /// Metres: they reach down to there at vertical scale 1, skirts included.
+        /// The altitude in metres to which all of them reach down at vertical scale 1, skirts included.
         double low = -std::numeric_limits<double>::infinity();
     };
 

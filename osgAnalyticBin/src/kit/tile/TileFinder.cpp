@@ -189,11 +189,7 @@ void TileFinder::traversePaged(osg::PagedLOD& node) {
             if (!isTile) node.getChild(i)->accept(*this);
             continue;
         }
-        TileFrame inside = _frame;
-        inside.file = pagedFilePath(_frame.file, node.getFileName(i));
-        inside.isBelowTile = _frame.isBelowTile || isTile;
-        inside.isAttached = false;
-        const Scoped frame(_frame, inside);
+        const Scoped frame(_frame, pagedFrame(_frame, node.getFileName(i), isTile));
         const Scoped<std::size_t> ordinal(_ordinal, 0);
         node.getChild(i)->accept(*this);
     }
