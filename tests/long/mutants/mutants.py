@@ -2,13 +2,15 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 """Puts one fault after the other into a copy of the sources and says whether the tests notice it. The faults are in
-faults.py. The sources themselves stay as they are. Exit code: 0; 1 when tests fail without a fault, when a fault was
-not noticed, or when one could not be put in, because its text is gone or it does not compile; 2 for a wrong command
-line."""
+faults.py. The sources themselves stay as they are. Several copies are tried at once, each with one compiler; with
+ccache they share what they compile. Exit code: 0; 1 when tests fail without a fault, when a fault was not noticed, or
+when one could not be put in, because its text is gone or it does not compile; 2 for a wrong command line."""
 
 import argparse
+import concurrent.futures
 import os
 import pathlib
+import queue
 import shutil
 import subprocess
 import sys
@@ -45,18 +47,21 @@ def copy_sources(to):
 
 
 class Scratch:
-    def __init__(self, work, jobs):
-        self.sources, self.build, self.jobs = work / "source", work / "build", jobs
-        self.log = work / "log.txt"
+    def __init__(self, work):
+        work.mkdir(parents=True, exist_ok=True)
+        self.work, self.sources, self.build, self.log = work, work / "source", work / "build", work / "log.txt"
 
     def configure(self):
         copy_sources(self.sources)
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=OFF",
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DCMAKE_UNITY_BUILD=OFF",
                    "-DOSGANALYTICBIN_WERROR=OFF", "-DOSGANALYTICBIN_BENCHMARKS=OFF"]
+        if shutil.which("ccache"):
+            options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
         return run(["cmake", "-S", self.sources, "-B", self.build, "-G", "Ninja", *options], self.log)
 
     def make(self, target):
-        return run(["cmake", "--build", self.build, "--target", target, "--", "-j", str(self.jobs)], self.log)
+        shared = dict(os.environ, CCACHE_BASEDIR=str(self.work), CCACHE_NOHASHDIR="1")
+        return run(["cmake", "--build", self.build, "--target", target, "--", "-j", "1"], self.log, env=shared)
 
     def run_tests(self, target, *options):
         """Returns: the exit code, and what was said."""
@@ -108,12 +113,20 @@ def trial(fault, scratch):
         file.write_text(before, encoding="utf-8")
 
 
-def sound_without_faults(scratch, faults):
-    """Whether the tests that are to fail pass as long as nothing is wrong."""
-    for target in sorted({fault.target for fault in faults}):
+def built(scratch, targets):
+    if scratch.configure() != 0:
+        print(f"the copy cannot be configured:\n{tail(scratch.log, 60)}")
+        return False
+    for target in targets:
         if scratch.make(target) != 0:
             print(f"{target} cannot be built:\n{tail(scratch.log, 60)}")
             return False
+    return True
+
+
+def sound_without_faults(scratch, faults, targets):
+    """Whether the tests that are to fail are there, and pass as long as nothing is wrong."""
+    for target in targets:
         passed, failed = scratch.test(target)
         if not passed:
             print(f"{target} fails without a fault: {', '.join(failed)}\n{tail(scratch.log)}")
@@ -125,12 +138,26 @@ def sound_without_faults(scratch, faults):
     return True
 
 
+def try_all(faults, scratch):
+    """Takes faults until none is left. Returns: how many were not noticed."""
+    bad = 0
+    while True:
+        try:
+            fault = faults.get_nowait()
+        except queue.Empty:
+            return bad
+        start = time.monotonic()
+        word, detail = trial(fault, scratch)
+        bad += word != "noticed"
+        print(f"{word:9} {fault.name} ({time.monotonic() - start:.0f} s): {detail}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--work", type=pathlib.Path, default=SOURCES / "build" / "mutants",
                         help="scratch folder for the copy and its build (default build/mutants)")
     parser.add_argument("--only", default="", help="the faults alone whose name or file has this")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once (default: one per core)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="copies tried at once (default: one per core)")
     parser.add_argument("--list", action="store_true", help="name the faults, and do nothing")
     arguments = parser.parse_args()
     faults = [fault for fault in FAULTS if arguments.only in fault.name or arguments.only in fault.file]
@@ -141,20 +168,16 @@ def main():
             print(f"{fault.file}: {fault.name}")
         return 0
     begin = time.monotonic()
-    arguments.work.mkdir(parents=True, exist_ok=True)
-    scratch = Scratch(arguments.work.resolve(), arguments.jobs)
-    if scratch.configure() != 0:
-        print(f"the copy cannot be configured:\n{tail(scratch.log, 60)}")
-        return 1
-    if not sound_without_faults(scratch, faults):
-        return 1
-    print(f"{len(faults)} faults; without them all tests pass ({time.monotonic() - begin:.0f} s)", flush=True)
-    bad = 0
-    for fault in faults:
-        start = time.monotonic()
-        word, detail = trial(fault, scratch)
-        bad += word != "noticed"
-        print(f"{word:9} {fault.name} ({time.monotonic() - start:.0f} s): {detail}", flush=True)
+    copies = [Scratch(arguments.work.resolve() / str(number)) for number in range(max(1, min(arguments.jobs, len(faults))))]
+    targets = sorted({fault.target for fault in faults})
+    waiting = queue.SimpleQueue()
+    for fault in sorted(faults, key=lambda fault: fault.place):
+        waiting.put(fault)
+    with concurrent.futures.ThreadPoolExecutor(len(copies)) as pool:
+        if not all(pool.map(lambda scratch: built(scratch, targets), copies)) or not sound_without_faults(copies[0], faults, targets):
+            return 1
+        print(f"{len(faults)} faults; without them all tests pass ({time.monotonic() - begin:.0f} s)", flush=True)
+        bad = sum(pool.map(lambda scratch: try_all(waiting, scratch), copies))
     print(f"{len(faults) - bad} of {len(faults)} noticed in {time.monotonic() - begin:.0f} s")
     return 1 if bad else 0
 
