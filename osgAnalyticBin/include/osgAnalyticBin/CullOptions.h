@@ -36,7 +36,8 @@ enum class OcclusionUse {
     Off,  ///< never
     On,   ///< in every frame
     Auto  ///< the default: while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to
-          ///< 256 views
+          ///< 256 views. Never twice in succession, a frame is drawn without it while a search for the next one is
+          ///< made.
 };
 
 /// What the osg::ClusterCullingCallbacks of a database do, which may cull visible tiles of an ellipsoid. Those of a map

@@ -372,7 +372,7 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
 std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::PlaneSet& view,
                                                             const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
     // each tile that has come, or left the view, costs a look at all others
-    constexpr std::size_t kMostCome = 64, kMostLeft = 16;
+    constexpr std::size_t kMostLeft = 16;
     const core::InverseFrame frame(eye);
     std::vector<std::uint32_t> now;
     now.reserve(shown.size());

@@ -57,6 +57,7 @@ struct FoundOcclusion {
         core::HorizonBuffer::Outline outline;
     };
     static constexpr std::uint32_t kCame = ~std::uint32_t{0};
+    static constexpr std::size_t kMostCome = 64;
 
     std::vector<Tile> tiles;            ///< all tiles shown in the last view that the result served
     std::vector<Tile> shown;            ///< all tiles shown in the present view; a member to avoid allocations
@@ -80,7 +81,7 @@ struct FoundOcclusion {
         std::array<core::BinHull, 4> quarters;  ///< of what is drawn with it, ECEF
     };
     std::vector<Left> leftView;           ///< tiles that hid others, and are out of view
-    std::vector<core::GeodeticBin> come;  ///< of tiles that were not shown then
+    std::vector<core::GeodeticBin> come;  ///< of tiles that were not shown then, kMostCome at most
     bool isOutdated = false;              ///< a new search may find more
     /// @}
 

@@ -219,6 +219,14 @@ int viewsLeft(const FoundOcclusion& found, const glm::dvec3& eye, const core::In
     return views;
 }
 
+// Whether to search anew for tiles that have come or gone. They come in many views, and a search costs as much as all
+// other culling; a view that may wait draws those that have come, and does without what they hide.
+bool isDue(const FoundOcclusion& found, const TerrainHider::View& view) {
+    constexpr int kLeastUses = 8;
+    const bool waits = view.mayWait && found.uses < kLeastUses && 2 * found.come.size() < FoundOcclusion::kMostCome;
+    return found.isOutdated && !waits;
+}
+
 // What is hidden by what was found before, if that holds for this view. `span`: of the view in the picture.
 std::optional<LeftOut> served(FoundOcclusion& found, const TerrainHider::View& view, const LevelView& lines,
                               const std::vector<ShownTile>& shown, const std::optional<PictureSpan>& span,
@@ -265,6 +273,12 @@ public:
         if (_found->isOutdated) left = servedAhead(view, *lines, shown, spanThen);
         if (!left) left = served(*_found, view, *lines, shown, spanThen, _nearMeshes);
         if (!left) left = servedAhead(view, *lines, shown, spanThen);
+        if (!left && view.mayWait && isLeftToNextView(view, *lines, shown, spanThen)) {
+            hidden.isAwaited = true;
+            hidden.missing = "a search for this view, which is under way";
+            noteView(view.eye, spanThen);
+            return hidden;
+        }
         if (!left) {
             FoundPtr next = aimed(*_found, view, *lines, spanThen, 0);
             if (!next) return nothingFor(kSteep);
@@ -279,15 +293,15 @@ public:
             takeOver(std::move(next), *lines, spanThen);
         }
         if (!_ahead.valid() && spanThen) {
-            const int more = _found->isOutdated ? 0 : viewsLeft(*_found, view.eye, spanThen->across);
+            const int more = isDue(*_found, view) ? 0 : viewsLeft(*_found, view.eye, spanThen->across);
             if (more < kForeseen) searchAhead(view, *lines, shown, spanThen, more + 1);
         }
         hidden.tiles = std::move(left->tiles);
         _found->neededReach = left->reach;
         hidden.inView = countInView(*_found, shown);
         hidden.covered = _found->covered;
-        _found->lastEye = view.eye;
-        _found->lastAcross = spanThen.value_or(_found->span).across;
+        noteView(view.eye, spanThen);
+        _isLeftToNext = false;
         return hidden;
     }
     [[nodiscard]] bool hidesBall(const glm::dvec3& centre, double radius, bool isBehindHorizon) override {
@@ -325,6 +339,23 @@ private:
         return left;
     }
 
+    void noteView(const glm::dvec3& eye, const std::optional<PictureSpan>& span) {
+        _found->lastEye = eye;
+        _found->lastAcross = span.value_or(_found->span).across;
+    }
+
+    // Whether the search is made beside the drawing of this view, in which nothing is hidden, for the next one: where a
+    // camera turns faster than before, or clipping planes change, that costs less than to wait. Not twice in
+    // succession, and not after a jump: a picture that stands alone is searched for at once. `spanThen`: as for
+    // servedAhead().
+    [[nodiscard]] bool isLeftToNextView(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                                        const std::optional<PictureSpan>& spanThen) {
+        _isLeftToNext = !_isLeftToNext && spanThen;
+        if (_isLeftToNext) searchAhead(view, lines, shown, spanThen, 1);
+        _isLeftToNext = _isLeftToNext && _ahead.valid();
+        return _isLeftToNext;
+    }
+
     // A new result serves from this view on. `spanThen`: in the picture of the old one; afterwards, of the new one.
     void takeOver(FoundPtr found, const LevelView& lines, std::optional<PictureSpan>& spanThen) {
         const auto span = PictureSpan::of(lines, found->eye);
@@ -353,6 +384,7 @@ private:
 
     FoundPtr _found;               // by the last search; null: none
     std::future<FoundPtr> _ahead;  // of a search for the views that follow those which that one serves
+    bool _isLeftToNext = false;    // the last search was left to the thread
     SearchThread _thread;
     NearMeshes _nearMeshes;  // last read around the eye
 };

@@ -53,6 +53,28 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
     EXPECT_GT(hidden, 20);
 }
 
+// No view waits for a search, and never two in succession are drawn without one.
+TEST(TerrainOcclusion, IsSearchedForBesideTheDrawingIfLeftToItself) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
+    for (int i = 0; i < 20 && globe.drawsFarTile(); ++i) update(*globe.root);
+    const auto turned = [](double north) {
+        return CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1 + north, 1.0, 1000.0), {1, 0, 0}, 30.0);
+    };
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(globe.drawsFarTile(turned(0.0))) << i;
+    EXPECT_TRUE(globe.drawsFarTile(turned(0.2)));
+    EXPECT_STREQ(BinStatistics::of(*globe.visitor).notCovered(), "a search for this view, which is under way");
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(globe.drawsFarTile(turned(0.2))) << i;
+    Random random(3011);
+    int whole = 0;
+    for (int i = 0; i < 100; ++i) {
+        whole = globe.drawsFarTile(turned(random.uniform(-0.2, 0.2))) ? whole + 1 : 0;
+        EXPECT_LE(whole, 1) << i;
+    }
+    // a jump
+    EXPECT_FALSE(globe.drawsFarTile(RidgeGlobe::alongRow(1500.0)));
+}
+
 // The views with which what is found anew begins to serve. A search takes longer than all other culling.
 std::vector<int> beginningsIn(InstalledRidge& globe, const std::function<CullView(int)>& view) {
     const BinStatistics& statistics = BinStatistics::of(*globe.visitor);

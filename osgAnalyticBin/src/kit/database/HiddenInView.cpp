@@ -157,7 +157,7 @@ osg::ref_ptr<TerrainHider> selectBehindTerrain(const DatabaseView& view, Databas
     view.traversal.hiding.clear();
     const TerrainHider::Hidden hidden =
         last.hider->find({view.cullStack, view.ellipsoid, view.planes, view.shape, view.region, *viewpoint.eye(),
-                          viewpoint.nearReach(), computed ? &*computed : nullptr},
+                          viewpoint.nearReach(), computed ? &*computed : nullptr, use == OcclusionUse::Auto},
                          selection.shown());
     for (const std::size_t i : hidden.withoutPlates) {
         const ShownTile& tile = selection.shown()[i];
