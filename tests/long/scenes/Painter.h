@@ -12,7 +12,6 @@
 #include <osg/GraphicsContext>
 #include <osg/RenderInfo>
 #include <osg/Uniform>
-#include <osgUtil/RenderStage>
 #include <osgViewer/GraphicsWindow>
 
 USE_GRAPHICSWINDOW()

@@ -8,8 +8,6 @@
 
 #include <osgDB/ObjectWrapper>
 
-#include <thread>
-
 namespace osgAnalyticBin::test {
 namespace {
 

@@ -8,8 +8,6 @@
 
 #include "KitTest.h"
 
-#include <osg/StateSet>
-
 namespace osgAnalyticBin::test {
 namespace {
 
