@@ -11,7 +11,6 @@
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 
 #include <benchmark/benchmark.h>
-#include <glm/geometric.hpp>
 #include <osg/BoundingSphere>
 #include <osg/CoordinateSystemNode>
 #include <osg/Polytope>
@@ -25,6 +24,7 @@
 #include <memory>
 #include <string>
 #include <support/RandomBins.h>
+#include <support/View.h>
 #include <utility>
 #include <vector>
 
@@ -46,21 +46,17 @@ constexpr double kEarthRadius = 6.4e6;
 
 // The four side planes of a camera, as each method wants them.
 struct Frustum {
-    std::array<core::Plane, 4> planes;
+    explicit Frustum(const View& view) : planes(view.planes()) {
+        for (const core::Plane& p : planes) {
+            set.push_back(p);
+            polytope.add(osg::Plane(p.normal.x, p.normal.y, p.normal.z, p.offset));
+        }
+        polytope.setupMask();
+    }
+
+    std::vector<core::Plane> planes;
     core::PlaneSet set;
     osg::Polytope polytope;
-};
-
-// Tiles of all levels about a few places, and cameras there. As many tiles as the second-level cache of a common
-// machine holds: what is measured is the test, not the memory.
-struct Scene {
-    static constexpr std::size_t kTiles = 2048;
-    static constexpr std::size_t kFrusta = 64;
-
-    explicit Scene(Random& random);
-
-    std::vector<BinOracle> tiles;
-    std::vector<Frustum> frusta;
 };
 
 Geodetic near(Random& random, const Geodetic& site, double distance) {
@@ -79,48 +75,36 @@ GeodeticBin tileAt(Random& random, int level, const Geodetic& position) {
     return GeodeticBin({south, south + tile}, {west, west + tile}, {low, low + random.logUniform(10.0, 4000.0)});
 }
 
-glm::dvec3 ecef(const Geodetic& position) {
-    return wgs84().toEcef(position);
-}
+// Tiles of all levels about a few places, and cameras there, each looking at a target, rolled anyhow. As many tiles as
+// the second-level cache of a common machine holds: what is measured is the test, not the memory.
+struct Scene {
+    static constexpr std::size_t kTiles = 2048;
+    static constexpr std::size_t kFrusta = 64;
 
-// A camera that looks at a target, rolled anyhow.
-Frustum frustumAt(Random& random, const glm::dvec3& eye, const glm::dvec3& target) {
-    const glm::dvec3 forward = glm::normalize(target - eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
-    const glm::dvec3 up = glm::cross(right, forward);
-    const double halfWidth = random.uniform(15.0, 35.0) * kRadiansPerDegree;
-    const double halfHeight = halfWidth * random.uniform(0.5, 1.0);
-    Frustum frustum;
-    const auto plane = [&](const glm::dvec3& side, double halfAngle) {
-        const glm::dvec3 normal = glm::normalize(forward * std::sin(halfAngle) + side * std::cos(halfAngle));
-        return core::Plane{normal, -glm::dot(normal, eye)};
-    };
-    frustum.planes = {plane(right, halfWidth), plane(-right, halfWidth), plane(up, halfHeight), plane(-up, halfHeight)};
-    for (const core::Plane& p : frustum.planes) {
-        frustum.set.push_back(p);
-        frustum.polytope.add(osg::Plane(p.normal.x, p.normal.y, p.normal.z, p.offset));
+    explicit Scene(Random& random) {
+        std::vector<Geodetic> sites;
+        for (std::size_t i = 0; i < kSites; ++i)
+            sites.push_back({random.uniform(-1.2, 1.2), random.uniform(-kPi, kPi), 0.0});
+        for (std::size_t i = 0; i < kTiles; ++i) {
+            const Geodetic position = near(random, sites[i % kSites], random.logUniform(1e3, 2e6));
+            tiles.emplace_back(wgs84(), tileAt(random, random.integer(0, kDeepestLevel), position));
+        }
+        for (std::size_t i = 0; i < kFrusta; ++i) {
+            const Geodetic& site = sites[i % kSites];
+            const double height = random.logUniform(5e3, 2e6);
+            Geodetic eye = near(random, site, random.uniform(0.0, 1.0) * height);
+            eye.altitude = height;
+            View view;
+            view.eye = wgs84().toEcef(eye);
+            view.lookAlong(wgs84().toEcef(near(random, site, random.uniform(0.0, 1.0) * height)) - view.eye, random);
+            view.halfWidth = std::tan(random.uniform(15.0, 35.0) * kRadiansPerDegree);
+            frusta.emplace_back(view);
+        }
     }
-    frustum.polytope.setupMask();
-    return frustum;
-}
 
-Scene::Scene(Random& random) {
-    std::vector<Geodetic> sites;
-    for (std::size_t i = 0; i < kSites; ++i) {
-        sites.push_back({random.uniform(-1.2, 1.2), random.uniform(-kPi, kPi), 0.0});
-    }
-    for (std::size_t i = 0; i < kTiles; ++i) {
-        const Geodetic position = near(random, sites[i % kSites], random.logUniform(1e3, 2e6));
-        tiles.emplace_back(wgs84(), tileAt(random, random.integer(0, kDeepestLevel), position));
-    }
-    for (std::size_t i = 0; i < kFrusta; ++i) {
-        const Geodetic& site = sites[i % kSites];
-        const double height = random.logUniform(5e3, 2e6);
-        Geodetic eye = near(random, site, random.uniform(0.0, 1.0) * height);
-        eye.altitude = height;
-        frusta.push_back(frustumAt(random, ecef(eye), ecef(near(random, site, random.uniform(0.0, 1.0) * height))));
-    }
-}
+    std::vector<BinOracle> tiles;
+    std::vector<Frustum> frusta;
+};
 
 // By how much the bin reaches into the half space of the plane that it reaches into least; negative: it is outside.
 Real reachInto(const Frustum& frustum, const BinOracle& tile) {
@@ -134,26 +118,22 @@ Real reachInto(const Frustum& frustum, const BinOracle& tile) {
 struct TileMix {
     static constexpr std::size_t kTilesPerFrustum = 1024;
 
-    TileMix(Random& random, const Scene& scene, double outsideShare);
+    TileMix(Random& random, const Scene& scene, double outsideShare) {
+        for (const Frustum& frustum : scene.frusta) {
+            std::array<std::vector<std::uint32_t>, 2> byReach;  // outside, and reached into
+            for (std::uint32_t i = 0; i < scene.tiles.size(); ++i)
+                byReach[reachInto(frustum, scene.tiles[i]) < 0 ? 0 : 1].push_back(i);
+            std::vector<std::uint32_t>& chosen = tilesOfFrustum.emplace_back();
+            while (chosen.size() < kTilesPerFrustum) {
+                const bool isOutside = byReach[1].empty() || (!byReach[0].empty() && random.chance(outsideShare));
+                const std::vector<std::uint32_t>& from = byReach[isOutside ? 0 : 1];
+                chosen.push_back(from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))]);
+            }
+        }
+    }
 
     std::vector<std::vector<std::uint32_t>> tilesOfFrustum;
 };
-
-TileMix::TileMix(Random& random, const Scene& scene, double outsideShare) {
-    for (const Frustum& frustum : scene.frusta) {
-        std::vector<std::uint32_t> outside;
-        std::vector<std::uint32_t> reachedInto;
-        for (std::uint32_t i = 0; i < scene.tiles.size(); ++i) {
-            (reachInto(frustum, scene.tiles[i]) < 0 ? outside : reachedInto).push_back(i);
-        }
-        std::vector<std::uint32_t>& chosen = tilesOfFrustum.emplace_back();
-        while (chosen.size() < kTilesPerFrustum) {
-            const std::vector<std::uint32_t>& from =
-                reachedInto.empty() || (!outside.empty() && random.chance(outsideShare)) ? outside : reachedInto;
-            chosen.push_back(from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))]);
-        }
-    }
-}
 
 // The tests: true when the tile is kept.
 

@@ -43,11 +43,8 @@ public:
 };
 
 FilesInMemory& filesInMemory() {
-    static const osg::ref_ptr<FilesInMemory> files = [] {
-        const osg::ref_ptr<FilesInMemory> made = new FilesInMemory;
-        osgDB::Registry::instance()->setReadFileCallback(made);
-        return made;
-    }();
+    static const osg::ref_ptr<FilesInMemory> files = new FilesInMemory;
+    osgDB::Registry::instance()->setReadFileCallback(files);
     return *files;
 }
 

@@ -79,7 +79,6 @@ bool altersDrawing(PartKind kind) {
         case PartKind::Vanish:
         case PartKind::DrawableCull:
         case PartKind::DrawableDraw:
-        case PartKind::VisitorLeavesOut:
         case PartKind::TileData:
             return true;
         default:

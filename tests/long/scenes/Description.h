@@ -133,9 +133,8 @@ enum class PartKind {
     Sign,      // is drawn in front of all
     Unculled,  // stands elsewhere, and says so
     Traffic,   // many small towers that ask whether terrain hides them
-    // cameras, visitors
+    // cameras, picks
     Camera,
-    VisitorLeavesOut,
     Pick,
     // events
     Toggle,

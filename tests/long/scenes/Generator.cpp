@@ -45,6 +45,11 @@ private:
         _description.parts.push_back(part);
         return _description.parts.back();
     }
+    Part& addEvent(PartKind kind, Hook hook = Hook::Globe) {
+        Part& part = add(kind, hook);
+        part.frame = anyFrame();
+        return part;
+    }
 
     void addBetweenTiles() {
         static constexpr std::array<PartKind, 8> kKinds{PartKind::Switch, PartKind::Sequence,   PartKind::Lod,
@@ -142,32 +147,25 @@ private:
 
     void addEvents() {
         if (_random.chance(0.15)) {
-            Part& part = add(PartKind::SetOptions);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::SetOptions);
             part.options = anyOptions();
         }
         const bool isScaled = _description.theme == Theme::ScaledTerrain;
         if (_random.chance(isScaled ? 0.8 : 0.25) && database().mesh == MeshKind::Terrain) {
             static constexpr std::array<double, 6> kScales{1.0, 3.0, 10.0, 10.0, 0.3, -2.0};
-            Part& part = add(PartKind::SetScale);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::SetScale);
             part.amount = _random.pick(kScales);
         }
-        if (_random.chance(0.15)) {
-            Part& part = add(PartKind::Expire, Hook::Tile);
-            part.frame = anyFrame();
-        }
+        if (_random.chance(0.15)) addEvent(PartKind::Expire, Hook::Tile);
         // what is paged below a tile would stay where it is
         if (database().levels == 0 && _random.chance(0.2)) {
             static constexpr std::array<Hook, 3> kHooks{Hook::Tile, Hook::Mesh, Hook::Mesh};
-            Part& part = add(PartKind::Shove, _random.pick(kHooks));
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::Shove, _random.pick(kHooks));
             part.amount =
                 _random.chance(0.3) ? _random.uniform(0.0, kTwoPi) : _random.sign() * _random.logUniform(1e-6, 1.0);
         }
         if (_random.chance(0.05)) {
-            Part& part = add(PartKind::Move);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::Move);
             part.amount = _random.uniform(-1e6, 1e6);
         }
         if (_number > 0) return;
@@ -177,19 +175,16 @@ private:
     void addEventsOnAll() {
         const double more = _description.theme == Theme::ScaledTerrain ? 0.3 : 0.0;
         if (_random.chance(0.12 + more)) {
-            Part& part = add(PartKind::Clone);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::Clone);
             part.variant = _random.chance(0.6) ? 0 : _random.integer(1, 3);
         }
         if (_random.chance(0.1 + more)) {
-            Part& part = add(PartKind::SaveAndLoad);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::SaveAndLoad);
             part.variant = _random.chance(0.2) ? 1 : 0;
         }
         if (_random.chance(0.25)) add(PartKind::Uninstall).frame = anyFrame();
         if (_random.chance(0.12)) {
-            Part& part = add(PartKind::Install);
-            part.frame = anyFrame();
+            Part& part = addEvent(PartKind::Install);
             part.options = anyOptions();
         }
     }

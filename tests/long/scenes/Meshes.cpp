@@ -9,6 +9,7 @@
 #include <osg/PrimitiveSetIndirect>
 #include <osgTerrain/Locator>
 
+#include <kit/TileFixture.h>
 #include <support/GridMesh.h>
 
 namespace osgAnalyticBin::test {
@@ -91,22 +92,13 @@ osg::ref_ptr<osg::Node> makeTerrain(const DatabaseSpec& database, const TileKey&
     locator->setEllipsoidModel(new osg::EllipsoidModel(database.equatorial, database.polar));
     locator->setCoordinateSystemType(database.isMap ? osgTerrain::Locator::PROJECTED : osgTerrain::Locator::GEOCENTRIC);
     locator->setTransformAsExtents(e.west - turn, e.south, e.east - turn, e.north);
-    const osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
     const auto count = static_cast<unsigned int>(shape.posts);
-    field->allocate(count, count);
-    for (unsigned int j = 0; j < count; ++j) {
-        for (unsigned int i = 0; i < count; ++i) {
-            const double latitude = e.south + j * (e.north - e.south) / (count - 1);
-            const double longitude = e.west + i * (e.east - e.west) / (count - 1);
-            field->setHeight(i, j, static_cast<float>(surfaceHeight(database, latitude, longitude)));
-        }
-    }
-    if (database.hasSkirts) field->setSkirtHeight(static_cast<float>(skirtOf(database, tile.level)));
-    const osg::ref_ptr<osgTerrain::HeightFieldLayer> layer = new osgTerrain::HeightFieldLayer(field);
-    layer->setLocator(locator);
-    const osg::ref_ptr<osgTerrain::TerrainTile> node = new osgTerrain::TerrainTile;
+    const auto node = makeTerrainTile(*locator, count, count, [&](unsigned int i, unsigned int j) {
+        return static_cast<float>(surfaceHeight(database, e.south + j * (e.north - e.south) / (count - 1),
+                                                e.west + i * (e.east - e.west) / (count - 1)));
+    });
+    if (database.hasSkirts) heightsOf(*node).setSkirtHeight(static_cast<float>(skirtOf(database, tile.level)));
     node->setLocator(locator);
-    node->setElevationLayer(layer);
     return node;
 }
 

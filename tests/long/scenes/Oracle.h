@@ -85,8 +85,9 @@ struct PictureTotals {
 
 /// The scene with what cannot be pictured taken out of its views: near and far planes that are computed of what is
 /// drawn, and so differ with bins, and small features that are culled though they have a pixel. Without clip planes, as
-/// OSG places one by the matrix of whatever is drawn first below its state, and without primitive restart, as display
-/// lists keep what was in force when they were made.
+/// OSG places one by the matrix of whatever is drawn first below its state, without primitive restart, as display lists
+/// keep what was in force when they were made, and without rasterizer discard, with which OpenGL does not clear the
+/// buffers of the next camera either.
 [[nodiscard]] Description picturable(Description description);
 
 /// Compares the paintings of two deliveries, pixel for pixel. Returns: the first difference that is not allowed.

@@ -185,7 +185,7 @@ osg::ref_ptr<osgTerrain::Layer> translucentImage(osgTerrain::Locator* locator) {
 }
 
 // Variants: without a technique; another technique; blended; other heights; a layer of them; a post without a height;
-// an image that is seen through.
+// an image that is seen through; a new technique of OSG's.
 void setTileData(const Part& part, osgTerrain::TerrainTile& tile) {
     auto* const heights = dynamic_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer());
     if (!heights) return;
@@ -209,6 +209,8 @@ void setTileData(const Part& part, osgTerrain::TerrainTile& tile) {
             field.setHeight(field.getNumColumns() / 2, field.getNumRows() / 2, kNone);
             heights->setValidDataOperator(new osgTerrain::NoDataValue(kNone));
             break;
+        case 7:
+            return tile.setTerrainTechnique(new osgTerrain::GeometryTechnique);
         default:
             tile.setColorLayer(0, translucentImage(heights->getLocator()));
     }

@@ -222,7 +222,8 @@ Description picturable(Description description) {
         view.cullingMode &= ~static_cast<int>(osg::CullSettings::SMALL_FEATURE_CULLING);
     }
     const auto dependsOnOrder = [](const Part& part) {
-        return nameOfState(part) == "clip plane" || nameOfState(part) == "primitive restart";
+        const std::string state = nameOfState(part);
+        return state == "clip plane" || state == "primitive restart" || state == "rasterizer discard";
     };
     for (Part& part : parts) {
         if (part.kind == PartKind::Camera) part.variant %= kFixedCameras;

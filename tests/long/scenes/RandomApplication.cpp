@@ -26,7 +26,7 @@ public:
             &ApplicationMaker::addStates,    &ApplicationMaker::addFacing,   &ApplicationMaker::addCullCallbacks,
             &ApplicationMaker::addBounds,    &ApplicationMaker::addDrawable, &ApplicationMaker::addCasters,
             &ApplicationMaker::addFiles,     &ApplicationMaker::addSigns,    &ApplicationMaker::addRaise,
-            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVisitor,  &ApplicationMaker::addUnculled,
+            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVanish,   &ApplicationMaker::addUnculled,
             &ApplicationMaker::addVanish};
         _number = _random.integer(0, static_cast<int>(_description.databases.size()) - 1);
         _tile = randomTile(_random, database(), _number, anyLevel());
@@ -304,11 +304,6 @@ private:
         Part& part = add(PartKind::Vanish, hook);
         part.frame = _random.integer(1, _frames);
         part.variant = _random.integer(0, 3);
-    }
-
-    void addVisitor() {
-        static constexpr std::array<Hook, 5> kHooks{Hook::Tile, Hook::Tile, Hook::Mesh, Hook::Geode, Hook::Slot};
-        add(PartKind::VisitorLeavesOut, _random.pick(kHooks)).frame = anyFrame();
     }
 
     Random& _random;

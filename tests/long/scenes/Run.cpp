@@ -33,11 +33,8 @@ public:
 };
 
 FilesInMemory& filesInMemory() {
-    static const osg::ref_ptr<FilesInMemory> files = [] {
-        const osg::ref_ptr<FilesInMemory> made = new FilesInMemory;
-        osgDB::Registry::instance()->setReadFileCallback(made);
-        return made;
-    }();
+    static const osg::ref_ptr<FilesInMemory> files = new FilesInMemory;
+    osgDB::Registry::instance()->setReadFileCallback(files);
     return *files;
 }
 
@@ -48,11 +45,8 @@ public:
 };
 
 ObjectWatch& objectWatch() {
-    static const osg::ref_ptr<ObjectWatch> watch = [] {
-        const osg::ref_ptr<ObjectWatch> made = new ObjectWatch;
-        osgDB::Registry::instance()->setObjectCache(made);
-        return made;
-    }();
+    static const osg::ref_ptr<ObjectWatch> watch = new ObjectWatch;
+    osgDB::Registry::instance()->setObjectCache(watch);
     return *watch;
 }
 
@@ -125,7 +119,6 @@ public:
 
     /// What the application sets for the view.
     void addViewState(const Part& part) { setState(part.variant, part.value, *_ownStates); }
-    void leaveOut(const std::string& name) { _recorder->leftOut.insert(name); }
 
     /// PagedLODs by themselves and the file that they page.
     [[nodiscard]] std::map<Request, std::set<osg::PagedLOD*>> waiting() {
@@ -306,8 +299,8 @@ private:
 
     // What the application meets apart from pictures.
     std::optional<Failure> checkApplication(int frame) {
-        if (const std::string complaint = takeComplaint(); !complaint.empty())
-            return Failure{frame, "a node meets something that is not of OSG", complaint};
+        if (const std::string text = takeComplaint(); !text.empty())
+            return Failure{frame, "a node meets something that is not of OSG", text};
         if (objectWatch().size() > 0)
             return Failure{frame, "something is in the object cache", std::to_string(objectWatch().size())};
         for (const Part& part : _description.parts) {
@@ -398,10 +391,8 @@ private:
 
     // What is of the view, and not in the scene.
     void beginView(const Part& part) {
-        for (Scene* scene : {&_without, &_with}) {
-            if (part.kind == PartKind::State && part.hook == Hook::View) scene->addViewState(part);
-            if (part.kind == PartKind::VisitorLeavesOut) scene->leaveOut(nodeName(part.hook, part.tile));
-        }
+        if (part.kind != PartKind::State || part.hook != Hook::View) return;
+        for (Scene* scene : {&_without, &_with}) scene->addViewState(part);
     }
 
     void applyToBoth(const Part& part) {

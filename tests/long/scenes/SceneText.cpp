@@ -24,8 +24,8 @@ const Words& wordsOf(PartKind) {
                              "culling-off", "user-cull", "user-update", "drawable-bin", "outline", "fill", "state",
                              "leaves-out", "pushes-state", "masks", "meddles", "vanish", "one-shot", "bound",
                              "no-bound", "drawable-cull", "drawable-draw", "drawable-update", "drawable-bound", "raise",
-                             // models, cameras, visitors
-                             "tower", "vehicle", "sign", "unculled", "traffic", "camera", "visitor-leaves", "pick",
+                             // models, cameras
+                             "tower", "vehicle", "sign", "unculled", "traffic", "camera", "pick",
                              // events
                              "toggle", "set-options", "install", "uninstall", "set-scale", "clone", "save-and-load",
                              "expire", "move", "shove", "tile-data"};

@@ -30,29 +30,20 @@ struct Arguments {
     bool describes = false;
     bool shrinks = true;
     bool hasPictures = false;
-    bool hasEverything = false;
     bool hasBins = true;
-    std::vector<std::string> leftOut;
     std::vector<std::string> files;
     bool isValid = true;
 };
 
-// Kinds of parts that doc/limits.md excludes: they are left out without --everything.
-constexpr std::array kExcluded{"visitor-leaves"};
-// With it OpenGL does not clear the buffers of the next camera either: pictures depend on what is drawn last.
-constexpr const char* kNotInPictures = "rasterizer-discard";
-
 constexpr const char* kUsage =
-    "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--leave-out TEXT]\n"
-    "                      [--no-shrink] [--pictures] [--everything] [--no-bins] [FILE.scene or FOLDER]...\n"
+    "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--no-shrink]\n"
+    "                      [--pictures] [--no-bins] [FILE.scene or FOLDER]...\n"
     "  FILE, FOLDER  runs the scenes of these files, in place of random ones\n"
     "  --scenes N    runs N scenes (default 500), with seeds S, S + 1, ...\n"
     "  --seed S      the first seed (default 1)\n"
     "  --only SEED   runs one scene\n"
     "  --describe    prints the scenes as files have them\n"
     "  --failures N  ends after N failures (default 10)\n"
-    "  --leave-out TEXT  leaves out all parts in whose line TEXT is; may be given several times\n"
-    "  --everything  leaves nothing out of which faults are known\n"
     "  --no-bins     compares scenes without bins with themselves: what fails is a fault of this program\n"
     "  --no-shrink   prints scenes that fail as they are\n"
     "  --pictures    compares pictures, in place of what is delivered; needs a display\n"
@@ -61,13 +52,10 @@ constexpr const char* kUsage =
 Arguments parse(int count, char** values) {
     Arguments result;
     osg::ArgumentParser parser(&count, values);
-    std::string text;
     (void)parser.read("--scenes", result.scenes);
     (void)parser.read("--seed", result.seed);
     (void)parser.read("--failures", result.mostFailures);
     if (parser.read("--only", result.seed)) result.scenes = 1;
-    while (parser.read("--leave-out", text)) result.leftOut.push_back(text);
-    result.hasEverything = parser.read("--everything");
     result.hasBins = !parser.read("--no-bins");
     result.describes = parser.read("--describe");
     result.shrinks = !parser.read("--no-shrink");
@@ -75,8 +63,6 @@ Arguments parse(int count, char** values) {
     parser.reportRemainingOptionsAsUnrecognized();
     result.isValid = !parser.errors();
     for (int i = 1; i < parser.argc(); ++i) result.files.emplace_back(parser[i]);
-    if (!result.hasEverything) result.leftOut.insert(result.leftOut.end(), kExcluded.begin(), kExcluded.end());
-    if (!result.hasEverything && result.hasPictures) result.leftOut.emplace_back(kNotInPictures);
     return result;
 }
 
@@ -89,16 +75,6 @@ void onCrash(int signal) {
     (void)!write(STDERR_FILENO, presentScene, std::strlen(presentScene));
     std::signal(signal, SIG_DFL);
     (void)std::raise(signal);
-}
-
-void leaveOut(const std::vector<std::string>& texts, Description& description) {
-    const auto isLeftOut = [&](const Part& part) {
-        const std::string words = toText(part);
-        return std::any_of(texts.begin(), texts.end(),
-                           [&](const std::string& text) { return words.find(text) != std::string::npos; });
-    };
-    std::vector<Part>& parts = description.parts;
-    parts.erase(std::remove_if(parts.begin(), parts.end(), isLeftOut), parts.end());
 }
 
 void report(const Description& description, const Failure& failure, bool shrinks, Painter* painter) {
@@ -214,7 +190,6 @@ int main(int argc, char** argv) {
         std::snprintf(presentScene, sizeof presentScene, "%llu\n", static_cast<unsigned long long>(seed));
         Description description = randomDescription(seed);
         description.hasBins = arguments.hasBins;
-        leaveOut(arguments.leftOut, description);
         if (painter) description = picturable(std::move(description));
         if (arguments.describes) std::printf("%s", toText(description).c_str());
         const auto failure = run(description, totals, painter.get());

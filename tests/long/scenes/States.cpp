@@ -49,7 +49,6 @@
 #include <osg/Texture2D>
 #include <osg/VertexAttribDivisor>
 #include <osg/VertexProgram>
-#include <osg/Viewport>
 
 namespace osgAnalyticBin::test {
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <support/Random.h>
@@ -23,9 +25,28 @@ struct LongRun {
     bool hasFlag = false;  ///< the program's own option was given
 };
 
-/// Reads "--trials N", "--seed S", "--threads T", and an option of the program such as "--ties". For any other argument
-/// it prints the usage and returns nullopt.
-[[nodiscard]] std::optional<LongRun> longRunOf(int argc, char** argv, const std::string& flag = "");
+/// Reads "--trials N", "--seed S", and an option of the program such as "--ties". For any other argument it prints the
+/// usage and returns nullopt.
+[[nodiscard]] inline std::optional<LongRun> longRunOf(int argc, char** argv, const std::string& flag) {
+    LongRun run;
+    for (int i = 1; i < argc; ++i) {
+        const std::string name = argv[i];
+        if (name == flag) {
+            run.hasFlag = true;
+            continue;
+        }
+        const std::uint64_t value = i + 1 < argc ? std::strtoull(argv[++i], nullptr, 0) : 0;
+        if (name == "--trials" && value > 0) {
+            run.trials = value;
+        } else if (name == "--seed") {
+            run.seedValue = value;
+        } else {
+            std::printf("%s [%s] [--trials N] [--seed S]\n", argv[0], flag.c_str());
+            return std::nullopt;
+        }
+    }
+    return run;
+}
 
 /// Calls `check(random, trials, counts)` for chunks of trials. Chunks have streams of their own: the sum does not
 /// depend on the number of threads. `Counts` has add().

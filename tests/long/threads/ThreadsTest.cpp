@@ -209,17 +209,11 @@ TEST(ThreadsOnNestedGlobes, WidenTheSameTileAtOnce) {
     const TemporaryFolder folder;
     const core::GeodeticBin extents = extentsDeg(10, 30, 0, 40);
     const AnalyticBin claimed(extents.withAltitude({-40000.0, 300.0}), 1.0);
-    const auto globe = [](osg::Node* tile) {
-        osg::ref_ptr<osg::CoordinateSystemNode> node = new osg::CoordinateSystemNode;
-        node->setEllipsoidModel(new osg::EllipsoidModel);
-        node->addChild(tile);
-        return node;
-    };
     const osg::ref_ptr<osg::PagedLOD> whole = makePaged(makeMeshTile(extents, 200.0), "inner.osgb", 1e9f);
     setStoredBin(*whole, claimed);
-    const osg::ref_ptr<osg::Node> outer = globe(whole);
+    const osg::ref_ptr<osg::Node> outer = makeGlobe({whole});
     ASSERT_TRUE(osgDB::writeNodeFile(*outer, folder / "outer.osgb"));
-    ASSERT_TRUE(osgDB::writeNodeFile(*globe(makeMeshTile(extents, 7000.0)), folder / "inner.osgb"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*makeGlobe({makeMeshTile(extents, 7000.0)}), folder / "inner.osgb"));
     whole->setDatabasePath(folder / "");
     ASSERT_EQ(installBins(*outer), 1u);
 

@@ -6,20 +6,13 @@
 
 #include "Traffic.h"
 
+#include "BenchViewer.h"
 #include "CameraView.h"
-#include "FrameCapture.h"
-
-#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Material>
-#include <osg/MatrixTransform>
-#include <osg/Timer>
-#include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
-#include <osgViewer/Viewer>
 
 #include <cstdio>
-#include <cstring>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -57,33 +50,27 @@ void paint(osg::Node& node, unsigned int colour) {
 
 class Bench {
 public:
-    explicit Bench(const std::string& database) : _traffic(kModels) {
-        _database = osgDB::readRefNodeFile(database);
+    explicit Bench(const std::string& database)
+        : _database(osgDB::readRefNodeFile(database)),
+          _traffic(kModels),
+          _viewer(kWidth, kHeight, osgViewer::ViewerBase::SingleThreaded) {
         if (!_database) throw std::runtime_error(database + " cannot be read");
         _scene->addChild(_database);
         _scene->addChild(&_traffic.models());
-        _viewer.setSceneData(_scene);
-        _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-        _viewer.setUpViewInWindow(0, 0, kWidth, kHeight);
-        _viewer.getCamera()->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
-        _viewer.setRealizeOperation(new flight::WithoutAnisotropy);
-        flight::makeComparable(*_viewer.getCamera());
-        _viewer.getCamera()->addFinalDrawCallback(_capture);
-        _viewer.realize();
-        if (!_viewer.isRealized()) throw std::runtime_error("no window can be opened");
+        _camera->setViewport(0, 0, kWidth, kHeight);
+        _viewer.show(*_scene, _camera->getCullingMode());
     }
 
     // Returns: whether all that has a pixel is drawn.
     bool measure(const flight::CameraPose& pose) {
-        osg::Camera& camera = *_viewer.getCamera();
-        flight::placeCamera(camera, pose, flight::globeOf(*_database));
+        flight::placeCamera(*_camera, pose, flight::globeOf(*_database));
+        _viewer.setView(*_camera);
         drawUntilIdle();
-        _traffic.scatter(*_database, osg::Vec3d() * camera.getInverseViewMatrix(), kReach);
+        _traffic.scatter(*_database, osg::Vec3d() * _camera->getInverseViewMatrix(), kReach);
         const Picture without = look(false), with = look(true);
         std::size_t lost = 0;
         for (const unsigned int model : without.models) lost += with.models.count(model) == 0;
-        const bool isSame =
-            std::memcmp(without.image->data(), with.image->data(), without.image->getTotalSizeInBytes()) == 0;
+        const bool isSame = bench::differingPixels(*without.image, *with.image) == 0;
         std::printf("%-14s %6u %6zu %6u %8.1f %8.1f %6.2f", pose.name.c_str(), without.drawn, without.models.size(),
                     with.drawn, without.milliseconds, with.milliseconds, with.milliseconds / without.milliseconds);
         if (lost > 0) std::printf("  %zu models lost", lost);
@@ -108,19 +95,11 @@ private:
         osg::ref_ptr<osg::Image> image;
     };
 
+    // What hides is prepared in updates after all is there.
     void drawUntilIdle() {
         constexpr int kIdleFrames = 20;
-        for (int idle = 0; idle < kIdleFrames;) {
-            _viewer.frame();
-            const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();
-            idle = pager.getRequestsInProgress() || pager.requiresUpdateSceneGraph() ? 0 : idle + 1;
-        }
-    }
-
-    osg::ref_ptr<osg::Image> drawOnce() {
-        _capture->request(_viewer.getFrameStamp()->getFrameNumber() + 1);
-        _viewer.frame();
-        return _capture->take();
+        constexpr double kLongest = 60.0;  // seconds
+        for (int idle = 0; idle < kIdleFrames; ++idle) (void)_viewer.drawUntilLoaded(kLongest);
     }
 
     void setPainted(bool isPainted) {
@@ -133,16 +112,12 @@ private:
             set(*_traffic.models().getChild(i), i + 1);
     }
 
-    static std::set<unsigned int> modelsIn(const osg::Image* image) {
-        if (!image) throw std::runtime_error("a picture was never drawn");
+    static std::set<unsigned int> modelsIn(const osg::Image& image) {
         std::set<unsigned int> models;
-        for (int row = 0; row < image->t(); ++row) {
-            for (int column = 0; column < image->s(); ++column) {
-                const unsigned char* const p =
-                    image->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-                const unsigned int model = p[0] << 16U | p[1] << 8U | p[2];
-                if (model > 0) models.insert(model);
-            }
+        for (unsigned int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
+            const unsigned char* const p = image.data(pixel % kWidth, pixel / kWidth);
+            const unsigned int model = p[0] << 16U | p[1] << 8U | p[2];
+            if (model > 0 && model <= kModels) models.insert(model);
         }
         return models;
     }
@@ -151,25 +126,25 @@ private:
         _traffic.setAsking(asks);
         drawUntilIdle();
         Picture picture;
-        (void)drawOnce();
-        const osg::Timer_t begin = osg::Timer::instance()->tick();
-        // reading a picture back waits for it
-        for (int i = 0; i < kTimed; ++i) (void)drawOnce();
-        picture.milliseconds = osg::Timer::instance()->delta_m(begin, osg::Timer::instance()->tick()) / kTimed;
+        _viewer.startTimes();
+        for (int i = 0; i < kTimed; ++i) {
+            (void)_traffic.takeDrawn();
+            _viewer.timeFrame();
+            picture.drawn = _traffic.takeDrawn();
+        }
+        for (const bench::FrameTimes& times : _viewer.takeTimes()) picture.milliseconds += times.frameMs / kTimed;
         setPainted(true);
-        (void)_traffic.takeDrawn();
-        picture.image = drawOnce();
-        picture.drawn = _traffic.takeDrawn();
-        picture.models = modelsIn(picture.image.get());
+        picture.image = _viewer.pictureOf(*_scene, *_camera, _camera->getCullingMode());
+        picture.models = modelsIn(*picture.image);
         setPainted(false);
         return picture;
     }
 
     osg::ref_ptr<osg::Node> _database;
     const osg::ref_ptr<osg::Group> _scene = new osg::Group;
+    const osg::ref_ptr<osg::Camera> _camera = new osg::Camera;
     viewer::Traffic _traffic;
-    osgViewer::Viewer _viewer;
-    const osg::ref_ptr<flight::FrameCapture> _capture = new flight::FrameCapture;
+    bench::BenchViewer _viewer;
     std::size_t _inView = 0, _withPixel = 0, _drawn = 0;
     double _timeWithout = 0.0, _timeWith = 0.0;
 };

@@ -14,23 +14,16 @@ CullOptions onEarth(CullOptions options = {}) {
     return options;
 }
 
-// The tiles of a MeshGlobe below a plain group.
-struct GlobeWithoutSystem : MeshGlobe {
-    GlobeWithoutSystem() {
-        scene = makeGroup({tiles.begin(), tiles.end()});
-        root->removeChildren(0, root->getNumChildren());
-    }
-};
-
-// Leaves of 45 degrees, each in a group, that are not attached yet.
+// Leaves of 45 degrees, each in a group, that are not attached yet to a scene with bins.
 struct AddedGlobe : MeshGlobe {
-    AddedGlobe() {
+    explicit AddedGlobe(const CullOptions& options = onEarth()) {
         scene = new osg::Group;
         root->removeChildren(0, root->getNumChildren());
         for (const auto& tile : std::exchange(tiles, {})) {
             leaves.push_back(makeGroup({tile->getChild(0)}));
             tile->removeChildren(0, 1);
         }
+        (void)installBins(*scene, options);
     }
 
     void addAll() {
@@ -47,7 +40,9 @@ struct AddedGlobe : MeshGlobe {
 };
 
 TEST(NamedGlobe, StandsForACoordinateSystemAndOutlivesOtherMethods) {
-    GlobeWithoutSystem plain;
+    MeshGlobe plain;
+    plain.scene = makeGroup({plain.tiles.begin(), plain.tiles.end()});
+    plain.root->removeChildren(0, plain.root->getNumChildren());
     EXPECT_EQ(installBins(*plain.scene), 0u);
     ASSERT_EQ(installBins(*plain.scene, onEarth()), 32u);
     EXPECT_FALSE(plain.drawsAntipode()) << "no horizon";
@@ -63,7 +58,6 @@ TEST(NamedGlobe, StandsForACoordinateSystemAndOutlivesOtherMethods) {
 
 TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {
     AddedGlobe globe;
-    (void)installBins(*globe.scene, onEarth());
     globe.addAll();
     EXPECT_TRUE(globe.drawsAntipode()) << "nobody knows what lies between the tiles";
     EXPECT_FALSE(globe.draws(*globe.leaves[19], beside(ecefDeg(22.5, -22.5, 1e5))));
@@ -71,7 +65,6 @@ TEST(AddedTiles, LeaveTheHorizonAloneWhereItsAltitudeIsNotGiven) {
 
 TEST(AddedTiles, ComeInSeveralThreads) {
     AddedGlobe globe;
-    (void)installBins(*globe.scene, onEarth());
     std::vector<std::thread> threads;
     for (std::size_t first = 0; first < 4; ++first) {
         threads.emplace_back([&globe, first] {
@@ -87,13 +80,9 @@ TEST(AddedTiles, ComeInSeveralThreads) {
 }
 
 TEST(AddedTiles, FollowOtherOptionsAlsoOnTheirWay) {
-    AddedGlobe globe;
-    const CullOptions options = onEarth(declaredHorizon());
-    (void)installBins(*globe.scene, options);
+    AddedGlobe globe(onEarth(declaredHorizon()));
     for (const auto& tile : globe.leaves) EXPECT_EQ(addTile(*globe.scene, *tile), 1u);
-    CullOptions spheres = options;
-    spheres.method = Method::Sphere;
-    (void)setCullOptions(*globe.scene, spheres);
+    (void)setCullOptions(*globe.scene, onEarth(by(Method::Sphere)));
     for (const auto& tile : globe.leaves) globe.scene->addChild(tile);
     (void)globe.drawsAntipode();
     update(*globe.scene);
@@ -101,9 +90,7 @@ TEST(AddedTiles, FollowOtherOptionsAlsoOnTheirWay) {
 }
 
 TEST(AddedTiles, LeaveNothingBehindWhenTheyAreRemoved) {
-    AddedGlobe globe;
-    const CullOptions options = onEarth(declaredHorizon());
-    (void)installBins(*globe.scene, options);
+    AddedGlobe globe(onEarth(declaredHorizon()));
     globe.addAll();
     (void)globe.drawsAntipode();
     update(*globe.scene);
@@ -123,7 +110,6 @@ TEST(AddedTiles, LeaveNothingBehindWhenTheyAreRemoved) {
 // Both have the same name, none, and the first is above the heights that are declared.
 TEST(AddedTiles, HaveBinsOfTheirOwnWhateverIsFoundOfOthers) {
     AddedGlobe globe;
-    (void)installBins(*globe.scene, onEarth());
     const osg::ref_ptr<osg::Group> high = makeGroup({makeMeshTile(extentsDeg(0, 10, 0, 10), 1.5e4)});
     EXPECT_EQ(addTile(*globe.scene, *high), 1u);
     EXPECT_EQ(addTile(*globe.scene, *globe.leaves[3]), 1u);
@@ -131,14 +117,10 @@ TEST(AddedTiles, HaveBinsOfTheirOwnWhateverIsFoundOfOthers) {
 }
 
 TEST(AddedTiles, StandInTheFrameOfTheirParent) {
-    AddedGlobe globe;
-    const CullOptions options = onEarth(declaredHorizon());
-    (void)installBins(*globe.scene, options);
+    AddedGlobe globe(onEarth(declaredHorizon()));
     const osg::Matrixd half = osg::Matrixd::rotate(osg::PI, osg::Vec3d(0, 0, 1));
-    const osg::ref_ptr<osg::MatrixTransform> parent = new osg::MatrixTransform(half);
-    globe.scene->addChild(parent);
     EXPECT_EQ(addTile(*globe.scene, *globe.leaves[15], half), 1u);
-    parent->addChild(globe.leaves[15]);
+    globe.scene->addChild(makeTransform(half, {globe.leaves[15]}));
     update(*globe.scene);
     EXPECT_FALSE(globe.drawsAntipode() != globe.draws(*globe.leaves[15], MeshGlobe::fromAbove()));
     // tile 15 is south of the equator, east of 135 degrees: turned, east of 45 degrees west
@@ -148,8 +130,7 @@ TEST(AddedTiles, StandInTheFrameOfTheirParent) {
 
 TEST(AddedTiles, AreRefusedWhereThereIsNoDatabase) {
     AddedGlobe globe;
-    EXPECT_EQ(addTile(*globe.scene, *globe.leaves[0]), 0u);
-    (void)installBins(*globe.scene, onEarth());
+    EXPECT_EQ(addTile(*makeGroup({}), *globe.leaves[0]), 0u);
     globe.scene->addChild(globe.leaves[0]);
     EXPECT_EQ(addTile(*globe.scene, *globe.leaves[0]), 0u) << "a cull traversal may be in it";
     EXPECT_EQ(globe.leaves[0]->getChild(0)->getCullCallback(), nullptr);
@@ -175,8 +156,7 @@ struct NamedGround {
 
 TEST(NamedGround, AloneHasABin) {
     NamedGround named;
-    AddedGlobe globe;
-    (void)installBins(*globe.scene, onEarth(optionsOf("ground=BTGTerrainGroup")));
+    AddedGlobe globe(onEarth(optionsOf("ground=BTGTerrainGroup")));
     ASSERT_EQ(addTile(*globe.scene, *named.content), 1u);
     ASSERT_TRUE(installedOn(*named.ground));
     globe.scene->addChild(named.content);

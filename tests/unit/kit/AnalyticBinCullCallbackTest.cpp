@@ -17,12 +17,6 @@ namespace {
 
 using core::GeodeticBin;
 
-CullView randomGlobeView(Random& random) {
-    const osg::Vec3d eye = randomEyeAbove(random, 1e3);
-    const osg::Vec3d target = osgVector(random.direction()) * kEarthRadius;
-    return CullView::lookAt(eye, target, osgVector(random.direction()), random.uniform(2.0, 90.0));
-}
-
 // Looks at the middle of the globe.
 CullView atMiddle(double altitude, double fovDeg = 40.0) {
     return CullView::lookAt({kEarthRadius + altitude, 0, 0}, {0, 0, 0}, {0, 0, 1}, fovDeg);
@@ -44,12 +38,12 @@ struct CountedGlobe : CameraGlobe {
 
 TEST(AnalyticBinCullCallback, CullsAGlobeThatATransformMovesTurnsAndScalesLikeOneAtRest) {
     CountedGlobe globe(horizonOptions());
-    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    const osg::ref_ptr<osg::MatrixTransform> mover = makeTransform({}, {&globe.root()});
     mover->setCullingActive(false);
-    mover->addChild(&globe.root());
     Random random(31);
     for (int i = 0; i < 60; ++i) {
-        CullView view = randomGlobeView(random);
+        const osg::Vec3d eye = randomEyeAbove(random, 1e3), target = osgVector(random.direction()) * kEarthRadius;
+        CullView view = CullView::lookAt(eye, target, osgVector(random.direction()), random.uniform(2.0, 90.0));
         const std::set<std::size_t> atRest = globe.reached(globe.root(), view);
         // A line of sight stays a line under any affine map: unequal scales do no harm.
         const osg::Vec3d scale = i % 2 ? osg::Vec3d(0.5, 0.5, 0.5) : osg::Vec3d(0.5, 2.0, 1.25);
@@ -99,10 +93,9 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
 }
 
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     const osg::ref_ptr<osg::Group> tile = new osg::Group;
     setStoredBin(*tile, AnalyticBin(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {0, 100})));
-    root->addChild(tile);
+    const auto root = makeGlobe({tile});
     root->setUpdateCallback(new InstallBinsCallback(horizonOptions()));
     const auto installed = [&](const CullOptions& options) {
         installBins(*root, options);
@@ -139,7 +132,7 @@ TEST(CulledCounts, AreThoseOfTheTilesThatAreReachedAlsoOfSmallFeatures) {
     EXPECT_EQ(counted(1e6f).outside, 128u);
 }
 
-TEST(BinStatistics, CountsEachTraversalOnce) {
+TEST(BinStatistics, CountsEachTraversalOfAVisitorOnce) {
     CountedGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
@@ -149,14 +142,9 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().frame, frame);
         EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 128u);
     }
-}
-
-TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
-    CountedGlobe globe;
-    const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    cull(globe.root(), atMiddle(1e6), *a);
+    // visitors share nothing, not even clones
+    const osg::ref_ptr<osgUtil::CullVisitor> a = visitor, b = a->clone();
     const BinCounts before = BinStatistics::find(*a)->getCounts();
-    const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
     cull(globe.root(), atMiddle(1e7), *b);
     EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);

@@ -6,6 +6,8 @@
 
 #include "KitTest.h"
 
+#include <sstream>
+
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -45,7 +47,6 @@ TEST(AnalyticBin, TextRoundTripIsExactForQuadtreeCells) {
 
 TEST(AnalyticBin, TextRoundTripOfAnyAnglesContainsTheBin) {
     Random random(1);
-
     for (int i = 0; i < 20000; ++i) {
         const double a = random.uniform(-1.57, 1.57);
         const double b = random.uniform(-1.57, 1.57);
@@ -59,9 +60,12 @@ TEST(AnalyticBin, TextRoundTripOfAnyAnglesContainsTheBin) {
     }
 }
 
-TEST(AnalyticBin, TextIsDegreesAndMetresAsAPersonWouldWriteThem) {
-    const AnalyticBin bin(GeodeticBin::fromDegrees({-22.5, 0}, {157.5, 180}, {-10376, 12.5}), 1.0);
+TEST(AnalyticBin, TextIsDegreesAndMetresAsAPersonWouldWriteThemAndTheSag) {
+    AnalyticBin bin(GeodeticBin::fromDegrees({-22.5, 0}, {157.5, 180}, {-10376, 12.5}), 1.0);
     EXPECT_EQ(bin.toText(), "-22.5 157.5 -10376 0 180 12.5 1");
+    bin.setSag(2500.0);
+    EXPECT_EQ(bin.toText(), "-22.5 157.5 -10376 0 180 12.5 1 2500");
+    EXPECT_EQ(AnalyticBin::fromText(bin.toText()), bin);
 }
 
 TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
@@ -70,13 +74,6 @@ TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
           "0 0 nan 1 1 1 0", "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0", "0 0 0 1 1 1 -1",
           "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"})
         EXPECT_FALSE(AnalyticBin::fromText(text).valid()) << text;
-}
-
-TEST(AnalyticBin, TextRoundTripKeepsTheSag) {
-    AnalyticBin bin(GeodeticBin::fromDegrees({-22.5, 0}, {157.5, 180}, {-10376, 12.5}), 1.0);
-    bin.setSag(2500.0);
-    EXPECT_EQ(bin.toText(), "-22.5 157.5 -10376 0 180 12.5 1 2500");
-    EXPECT_EQ(AnalyticBin::fromText(bin.toText()), bin);
 }
 
 // Terrain is taken as pairs of a post's height and the dip of the chords beside it.
@@ -128,6 +125,13 @@ TEST(AnalyticBin, TheLowestAltitudeOfASurfaceIsStoredBesideTheBin) {
     EXPECT_FALSE(storedSurfaceLow(*node));
 }
 
+double reachOf(const osg::BoundingSphere& sphere, const AnalyticBin& bin, int samplesAcross) {
+    double reach = 0.0;
+    for (const osg::Vec3d& p : samples(bin, samplesAcross))
+        reach = std::max(reach, (p - osg::Vec3d(sphere.center())).length());
+    return reach;
+}
+
 TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
     const osg::EllipsoidModel wgs84;
     for (const double width : {22.5, 5.625, 0.1}) {
@@ -135,79 +139,49 @@ TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
             const AnalyticBin bin(
                 GeodeticBin::fromDegrees({south, south + width}, {170.0, 170.0 + width}, {-400.0, 8800.0}));
             const osg::BoundingSphere sphere = bin.boundingSphere(wgs84);
-            double reach = 0.0;
-            for (const osg::Vec3d& p : samples(bin, 9))
-                reach = std::max(reach, (p - osg::Vec3d(sphere.center())).length());
+            const double reach = reachOf(sphere, bin, 9);
             EXPECT_LE(reach, sphere.radius());
             EXPECT_LE(sphere.radius(), 1.15 * reach + 2.0) << width << " at " << south;
         }
     }
     EXPECT_FALSE(AnalyticBin().boundingSphere(wgs84).valid());
-}
-
-TEST(AnalyticBin, SphereOfTheWholeGlobeHoldsTheGlobe) {
     const AnalyticBin globe(GeodeticBin::wholeGlobe({-11000.0, 9000.0}));
-    const osg::BoundingSphere sphere = globe.boundingSphere(osg::EllipsoidModel());
-    for (const osg::Vec3d& p : samples(globe, 15))
-        EXPECT_LE((p - osg::Vec3d(sphere.center())).length(), sphere.radius());
-}
-
-CullOptions parsed(const std::string& text) {
-    std::string error;
-    const auto options = cullOptionsFromText(text, error);
-    EXPECT_TRUE(options) << error;
-    return options.value_or(CullOptions());
+    EXPECT_LE(reachOf(globe.boundingSphere(wgs84), globe, 15), globe.boundingSphere(wgs84).radius());
 }
 
 TEST(CullOptions, EmptyTextIsTheDefault) {
     for (const char* text :
          {"", "method=quadratic expiry=3,occlusion=auto;horizon=declared,edges=on", "cluster=replace,index=auto"})
-        EXPECT_TRUE(parsed(text) == CullOptions()) << text;
+        EXPECT_TRUE(optionsOf(text) == CullOptions()) << text;
     EXPECT_EQ(CullOptions().method, Method::Quadratic);
     EXPECT_EQ(CullOptions().expiry, 3.0);
     EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Auto);
 }
 
 TEST(CullOptions, OfAllItemsReadBackAndDifferFromTheDefault) {
-    for (const char* item : {"method=exact",
-                             "method=sphere",
-                             "method=none",
-                             "horizon=off",
-                             "horizon=-500.25",
-                             "inheritviewpoint=on",
-                             "edges=off",
-                             "expiry=0",
-                             "expiry=0.1",
-                             "expiry=86400",
-                             "cluster=keep",
-                             "heights=-500.5..9000",
-                             "heights=-11500..8000",
-                             "techniquemargin=0",
-                             "techniqueMargin=50",
-                             "index=off",
-                             "index=on",
-                             "occlusion=off",
-                             "occlusion=on",
-                             "globe=wgs84",
-                             "globe=1738100/1736000",
-                             "ground=BTGTerrainGroup"}) {
-        const CullOptions options = parsed(item);
+    std::istringstream items(
+        "method=exact method=sphere method=none horizon=off horizon=-500.25 inheritviewpoint=on edges=off expiry=0 "
+        "expiry=0.1 expiry=86400 cluster=keep heights=-500.5..9000 heights=-11500..8000 techniquemargin=0 "
+        "techniqueMargin=50 index=off index=on occlusion=off occlusion=on globe=wgs84 globe=1738100/1736000 "
+        "ground=BTGTerrainGroup");
+    for (std::string item; items >> item;) {
+        const CullOptions options = optionsOf(item);
         EXPECT_FALSE(options == CullOptions()) << item;
-        EXPECT_TRUE(parsed(toText(options)) == options) << item;
+        EXPECT_TRUE(optionsOf(toText(options)) == options) << item;
     }
 }
 
 TEST(CullOptions, MeanWhatTheySay) {
-    const CullOptions options = parsed("method=none expiry=1.5,method=exact,horizon=-500,heights=-500.5..9000");
+    const CullOptions options = optionsOf("method=none expiry=1.5,method=exact,horizon=-500,heights=-500.5..9000");
     EXPECT_EQ(options.method, Method::Exact) << "later items win";
     EXPECT_EQ(options.expiry, 1.5);
     EXPECT_EQ(options.horizonUse, HorizonUse::Given);
     EXPECT_EQ(options.horizon, -500.0);
     EXPECT_EQ(options.heights, (core::Interval{-500.5, 9000.0}));
-    ASSERT_TRUE(parsed("globe=1738100/1736000").globe);
-    EXPECT_EQ(parsed("globe=1738100/1736000").globe->equatorialRadius(), 1738100.0);
-    EXPECT_EQ(parsed("globe=1738100/1736000").globe->polarRadius(), 1736000.0);
-    EXPECT_NE(toText(parsed("globe=WGS84")).find("globe=wgs84"), std::string::npos);
+    const CullOptions moon = optionsOf("globe=1738100/1736000");
+    ASSERT_TRUE(moon.globe);
+    EXPECT_EQ(std::pair(moon.globe->equatorialRadius(), moon.globe->polarRadius()), std::pair(1738100.0, 1736000.0));
+    EXPECT_NE(toText(optionsOf("globe=WGS84")).find("globe=wgs84"), std::string::npos);
     CullOptions unreadable;
     unreadable.ground = "two words";
     EXPECT_EQ(toText(unreadable), toText(CullOptions()));

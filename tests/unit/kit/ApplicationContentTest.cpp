@@ -159,27 +159,6 @@ TEST(NeverCulled, IsACamera) {
     });
 }
 
-// An application's callback in front of the bin's: the clones of its node share both.
-TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
-    InstalledGlobe globe;
-    osg::Node& tile = *globe.tiles[19];
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Callback> application = new VisitRecorder("tile", visited);
-    application->setNestedCallback(tile.getCullCallback());
-    tile.setCullCallback(application);
-    const unsigned int slot = tile.getParent(0)->getChildIndex(&tile);
-    const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    for (int i = 0; i < 2; ++i) scene->addChild(osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES));
-    const auto cloneOfTile = [&](unsigned int i) { return scene->getChild(i)->asGroup()->getChild(slot); };
-    ASSERT_EQ(cloneOfTile(1)->getCullCallback(), application.get());
-    removeBins(*scene);
-    for (unsigned int i = 0; i < 2; ++i) {
-        EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
-        EXPECT_EQ(dynamic_cast<osg::PagedLOD&>(*cloneOfTile(i)).getMinimumExpiryTime(1), 0.0) << i;
-    }
-    EXPECT_EQ(application->getNestedCallback(), nullptr);
-}
-
 // A mast that lies in the tile, and stands up: its sphere stays the same.
 TEST(AddedContent, ThatTurnsInItsSphereIsDrawn) {
     InstalledGlobe globe;

@@ -14,10 +14,8 @@ namespace {
 // The application or a tile may cull back faces. Then a globe whose front faces look down is open from above.
 TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     MeshGlobe globe;
-    globe.scene = new osg::Group;
-    const osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrix::scale(1.0, 1.0, -1.0));
-    globe.scene->addChild(mirror);
-    mirror->addChild(globe.root);
+    const auto mirror = makeTransform(osg::Matrix::scale(1.0, 1.0, -1.0), {globe.root});
+    globe.scene = makeGroup({mirror});
     installBins(*globe.root);
     EXPECT_TRUE(globe.drawsAntipode());
     // cameras that draw reflections do this
@@ -210,9 +208,8 @@ TEST(DecidedPlanes, AreLeftOutBelowTheTransformsOfATileAlone) {
     root->addChild(tile);
     MaskReader below, beside;
     for (MaskReader* const reader : {&below, &beside}) {
-        const osg::ref_ptr<osg::MatrixTransform> transform =
-            new osg::MatrixTransform(osg::Matrixd::translate(10.0, 0.0, 0.0));
-        transform->addChild(makeTower(ecefDeg(0.5, 0.5, 0.0)));
+        const auto transform =
+            makeTransform(osg::Matrixd::translate(10.0, 0.0, 0.0), {makeTower(ecefDeg(0.5, 0.5, 0.0))});
         transform->setCullCallback(reader->callback);
         (reader == &below ? *tile : *root).addChild(transform);
     }

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The index that is made in the background, and what tiles are culled by before there is one.
+// The index that is made in the background; one beside the database, and what becomes of tiles that are no longer as it
+// knows them.
 
 #include "KitTest.h"
 
 #include <osgDB/ObjectWrapper>
-
-#include <thread>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -32,8 +31,34 @@ protected:
         ASSERT_TRUE(_root);
         EXPECT_EQ(installBins(*_scene, {}, _file), 1u);
     }
+    // Reads what is below the root, and merges it, as the pager does.
+    void read() {
+        const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+        ASSERT_TRUE(children);
+        _children = children->asGroup();
+        _north = dynamic_cast<osg::PagedLOD*>(_children->getChild(1));
+        ASSERT_TRUE(_north);
+    }
+    void page() {
+        read();
+        putBelow(*_root, _children);
+    }
+    // Has something else in the file below the root.
+    void changeChildren(const std::function<void(osg::Group&)>& change) const {
+        const std::string file = _folder / "children.osgb";
+        const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
+        change(*children);
+        ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
+    }
+    void frames(int count) {
+        for (int i = 0; i < count; ++i) {
+            (void)cull(*_scene, downTo(30, 20));
+            update(*_scene);
+        }
+    }
     [[nodiscard]] bool isRootWhole() const { return highOfRoot() < CullOptions::kTerrainOnEarth.upper; }
-    [[nodiscard]] double highOfRoot() const { return installedOn(*_root)->getBin().bin().altitude().upper; }
+    [[nodiscard]] double highOfRoot() const { return highOf(*_root); }
+    static double highOf(osg::Node& node) { return installedOn(node)->getBin().bin().altitude().upper; }
     // What the kit has written into the cache folder.
     [[nodiscard]] std::vector<std::string> keptFiles() const {
         std::vector<std::string> files;
@@ -50,7 +75,8 @@ protected:
     TemporaryFolder _folder, _cache;
     std::string _file;
     osg::ref_ptr<osg::Node> _scene;
-    osg::ref_ptr<osg::PagedLOD> _root;
+    osg::ref_ptr<osg::Group> _children;
+    osg::ref_ptr<osg::PagedLOD> _root, _north;
 };
 
 TEST_F(AutoIndex, IsMadeInTheBackgroundAndUsedAtOnceTheNextTime) {
@@ -73,65 +99,54 @@ TEST_F(AutoIndex, IsMadeInTheBackgroundAndUsedAtOnceTheNextTime) {
 
 TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     open();
-    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
-    putBelow(*_root, children);
-    osg::Node& north = *children->asGroup()->getChild(1);
-    const auto frame = [this] {
-        (void)cull(*_scene, downTo(30, 20));
-        update(*_scene);
-    };
+    page();
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) frame();
-    for (int i = 0; i < 4; ++i) frame();
+    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) frames(1);
+    frames(4);
     EXPECT_TRUE(isRootWhole());
-    EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
+    EXPECT_NEAR(highOf(*_north), 900.0, 1.0);
 }
 
 // A file that was read before the index was complete, and comes into the scene after.
 TEST_F(AutoIndex, TilesOnTheirWayGetItsBinsWhenTheyArrive) {
     open();
-    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
-    osg::Node& north = *children->asGroup()->getChild(1);
+    read();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     EXPECT_TRUE(isRootWhole());
-    putBelow(*_root, children);
-    EXPECT_FALSE(installedOn(north)->getBin().bin().altitude().upper < CullOptions::kTerrainOnEarth.upper);
+    putBelow(*_root, _children);
+    EXPECT_FALSE(highOf(*_north) < CullOptions::kTerrainOnEarth.upper);
     update(*_scene);
-    EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
+    EXPECT_NEAR(highOf(*_north), 900.0, 1.0);
 }
 
-// A tile that nobody knows the extent of has no bounds in the index, and those above it have none either.
-TEST_F(AutoIndex, TilesAboveOneWithoutBoundsKeepTheDeclaredHeights) {
-    const std::string file = _folder.path() + "/children.osgb";
-    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
-    const osg::ref_ptr<osg::AutoTransform> sign = new osg::AutoTransform;
-    sign->addChild(new osg::Geometry);
-    children->getChild(0)->asGroup()->addChild(sign);
-    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
-    for (int i = 0; i < 2; ++i) {
-        open();
-        ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-        EXPECT_TRUE(installedOn(*_root)->getBin().valid()) << i;
-        EXPECT_FALSE(isRootWhole()) << i;
-        EXPECT_FALSE(isIndexAwaited(*_scene));
+// A tile that nobody knows the extent of has no bounds in the index, and those above it have none either. Neither have
+// those above nodes that draw without drawables, beside the tiles of a file.
+TEST_F(AutoIndex, TilesAboveOneWithoutBoundsOrLightsKeepTheDeclaredHeights) {
+    const auto addSign = [](osg::Group& children) {
+        const osg::ref_ptr<osg::AutoTransform> sign = new osg::AutoTransform;
+        sign->addChild(new osg::Geometry);
+        children.getChild(0)->asGroup()->addChild(sign);
+    };
+    const auto addLights = [](osg::Group& children) {
+        osgDB::ObjectWrapper* const kind =
+            osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper("osgSim::LightPointNode");
+        ASSERT_TRUE(kind);
+        const osg::ref_ptr<osg::Node> mast = dynamic_cast<osg::Node*>(kind->createInstance());
+        ASSERT_TRUE(mast);
+        mast->setInitialBound(osg::BoundingSphere(ecefDeg(40, 20, 5000), 10.0f));
+        children.addChild(mast);
+    };
+    for (const auto& add : {std::function<void(osg::Group&)>(addSign), std::function<void(osg::Group&)>(addLights)}) {
+        write(700.0, 900.0);
+        changeChildren(add);
+        for (int i = 0; i < 2; ++i) {
+            open();
+            ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+            EXPECT_TRUE(installedOn(*_root)->getBin().valid()) << i;
+            EXPECT_FALSE(isRootWhole()) << i;
+            EXPECT_FALSE(isIndexAwaited(*_scene));
+        }
     }
-}
-
-// Neither have those above nodes that draw without drawables, beside the tiles of a file.
-TEST_F(AutoIndex, TilesAboveLightsKeepTheDeclaredHeights) {
-    const std::string file = _folder.path() + "/children.osgb";
-    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
-    osgDB::ObjectWrapper* const kind =
-        osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper("osgSim::LightPointNode");
-    ASSERT_TRUE(kind);
-    const osg::ref_ptr<osg::Node> mast = dynamic_cast<osg::Node*>(kind->createInstance());
-    ASSERT_TRUE(mast);
-    mast->setInitialBound(osg::BoundingSphere(ecefDeg(40, 20, 5000), 10.0f));
-    children->addChild(mast);
-    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    EXPECT_FALSE(isRootWhole());
 }
 
 // Such files do not say where their tiles stand: all would be read, each time, for nothing.
@@ -145,24 +160,17 @@ TEST_F(AutoIndex, IsNotMadeWhereTheOptionsAloneNameTheGlobe) {
 }
 
 TEST_F(AutoIndex, SaysWhyItCannotBeMadeThoughNothingElseHappens) {
-    const std::string file = _folder.path() + "/children.osgb";
-    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
-    children->addChild(makePaged(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0), "children.osgb"));
-    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
+    changeChildren([](osg::Group& children) {
+        children.addChild(makePaged(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0), "children.osgb"));
+    });
     const CapturedNotes notes(osg::NOTICE);
     open();
-    const auto draw = [this] {
-        for (int i = 0; i < 4; ++i) {
-            (void)cull(*_scene, downTo(30, 20));
-            update(*_scene);
-        }
-    };
-    draw();
+    frames(4);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_FALSE(isIndexAwaited(*_scene));
-    draw();
+    frames(4);
     EXPECT_EQ(notes.count("is paged below itself"), 1u);
     EXPECT_FALSE(_scene->getUpdateCallback());
     EXPECT_FALSE(waitForIndex(*_scene, kSeconds));
@@ -182,32 +190,26 @@ TEST_F(AutoIndex, IsUsedTheNextTimeWhereOneBesideTheDatabaseIsOutOfDate) {
     EXPECT_NEAR(highOfRoot(), 1200.0, 1.0);
 }
 
-TEST_F(AutoIndex, IsMadeWhereSomethingElseHasTheNameOfOneBesideTheDatabase) {
-    (void)_folder.write("root.osgb.bins", "of another program");
-    const CapturedNotes notes;
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    _scene = nullptr;
-    EXPECT_EQ(notes.count("is another kind of file"), 1u);
-    expectOneWholeIndex();
-    EXPECT_EQ(textOfFile(binIndexName(_file)), "of another program");
-    open();
-    EXPECT_FALSE(isIndexAwaited(*_scene));
-    EXPECT_NEAR(highOfRoot(), 900.0, 1.0);
-}
-
-TEST_F(AutoIndex, ABrokenOneGivesOneWarningAndIsMadeAnew) {
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    _scene = nullptr;
-    const std::string kept = keptFiles().front();
-    std::filesystem::resize_file(kept, std::filesystem::file_size(kept) - 20);
-    const CapturedNotes notes;
-    open();
-    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
-    _scene = nullptr;
-    EXPECT_EQ(notes.count("index of bins ends too early"), 1u);
-    expectOneWholeIndex();
+// It is another program's file beside the database, or a broken one that was kept.
+TEST_F(AutoIndex, OneThatCannotBeReadGivesOneWarningAndIsMadeAnew) {
+    for (const bool isBroken : {false, true}) {
+        if (isBroken) {
+            std::filesystem::remove(binIndexName(_file));
+            std::filesystem::resize_file(keptFiles().front(), std::filesystem::file_size(keptFiles().front()) - 20);
+        } else {
+            (void)_folder.write("root.osgb.bins", "of another program");
+        }
+        const CapturedNotes notes;
+        open();
+        ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+        _scene = nullptr;
+        EXPECT_EQ(notes.count(isBroken ? "index of bins ends too early" : "is another kind of file"), 1u);
+        expectOneWholeIndex();
+        EXPECT_EQ(textOfFile(binIndexName(_file)), isBroken ? "" : "of another program");
+        open();
+        EXPECT_FALSE(isIndexAwaited(*_scene));
+        EXPECT_NEAR(highOfRoot(), 900.0, 1.0);
+    }
 }
 
 TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
@@ -277,86 +279,90 @@ TEST_F(AutoIndex, IsMadeWhereACallbackReadsFilesAsOsgDoes) {
     EXPECT_TRUE(isRootWhole());
 }
 
-// Also in a viewer whose time stands still, and in one that draws a single frame.
-TEST(DeclaredBins, RequestAllFilesInTheFirstView) {
-    struct Globe : MeshGlobe {
-        Globe() {
-            visitor->setDatabaseRequestHandler(requests);
-            // just due, and long overdue
-            for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i]->setRange(1, 0.0F, i % 2 ? 1e8F : 8e6F);
-        }
-        void look() {
-            const osg::Vec3d eye = ecefDeg(22.5, 0.0, 3e6);
-            (void)cull(*scene, CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 120.0), *visitor, ++frame);
-        }
-        osg::ref_ptr<Requests> requests = new Requests;
-    } stock, globe;
-    installBins(*globe.root);
-    stock.look();
-    globe.look();
-    const std::size_t requested = globe.requests->nodes.size();
-    EXPECT_GT(requested, 6u);
-    for (std::size_t i = 0; i < stock.tiles.size(); ++i)
-        EXPECT_LE(globe.requests->nodes.count(globe.tiles[i]), stock.requests->nodes.count(stock.tiles[i])) << i;
-    globe.look();
-    EXPECT_EQ(globe.requests->nodes.size(), requested) << "none was left for later";
-}
+const std::string kStaleWarning = "is not as the index knows it";
 
-// A plain of so many degrees on a globe: its files may hold any terrain on earth.
-struct PlainGlobe : MeshGlobe {
-    explicit PlainGlobe(double degrees = 0.2) {
-        plain = makePaged(makeMeshTile(extentsDeg(10.0, 10.0 + degrees, 10.0, 10.0 + degrees), 0.0), "no.osgb", 1e9F);
-        root->addChild(plain);
-        visitor->setDatabaseRequestHandler(requests);
+// The index of a database of 500 m beside it, without the files' times, as osgbinconv makes it; then, maybe, other
+// heights in the database.
+class StaleIndex : public AutoIndex {
+protected:
+    void writeAndOpen(double leafHeight, double singleHeight) {
+        write(500.0, 500.0);
+        open();
+        ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+        const std::string kept = keptFiles().front();
+        std::string error;
+        const osg::ref_ptr<BinIndex> index = BinIndex::read(kept, error);
+        ASSERT_TRUE(index) << error;
+        index->setStamps({});
+        ASSERT_TRUE(index->write(binIndexName(_file), error)) << error;
+        std::filesystem::remove(kept);
+        write(leafHeight, singleHeight);
+        open();
+        EXPECT_FALSE(isIndexAwaited(*_scene));
     }
-    // From the south at this altitude, the lower edge of the picture this many degrees above the plain.
-    [[nodiscard]] bool drawsPlain(double altitude, double above) {
-        const double distance = 2.0e5;
-        const double up = distance * std::tan((above + 5.0) / 57.29578);
-        requests->files.clear();
-        return draws(*plain, CullView::lookAt(ecefDeg(8.3, 10.1, altitude), ecefDeg(10.1, 10.1, up), {0, 0, 1}, 10.0));
+    void pageSingle() {
+        _single = readBelow(*_north);
+        ASSERT_TRUE(_single);
+        putBelow(*_north, _single);
     }
 
-    osg::ref_ptr<osg::PagedLOD> plain;
-    osg::ref_ptr<Requests> requests = new Requests;
+    osg::ref_ptr<osg::Node> _single;
 };
 
-// So no more tiles are drawn and no more files are read than without bins.
-TEST(DeclaredBins, TilesAreCulledByOsgsSphereToo) {
-    for (const bool isTileByTile : {false, true}) {
-        // smaller than the declared heights are high
-        PlainGlobe globe(0.02), stock(0.02);
-        installBins(*globe.root);
-        BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
-        for (const double above : {-3.0, 1.0, 2.0, 5.0}) {
-            const bool isDrawn = globe.drawsPlain(3000.0, above);
-            EXPECT_LE(isDrawn, stock.drawsPlain(3000.0, above)) << above;
-            EXPECT_EQ(globe.requests->files.count("no.osgb"), stock.requests->files.count("no.osgb")) << above;
-            EXPECT_EQ(globe.requests->files.count("no.osgb"), above < 0.0 ? 1u : 0u) << above;
-        }
+TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
+    const CapturedNotes notes;
+    writeAndOpen(500.0, 500.0);
+    page();
+    pageSingle();
+    update(*_scene);
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(_root), _children->getChild(0), static_cast<osg::Node*>(_north), _single.get()}) {
+        EXPECT_NEAR(highOf(*node), 500.0, 1.0);
+        EXPECT_GT(installedOn(*node)->getBin().bin().altitude().lower, -13000.0);
+    }
+    EXPECT_EQ(notes.count(kStaleWarning), 0u);
+}
+
+TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpdate) {
+    const CapturedNotes notes;
+    writeAndOpen(7000.0, 6000.0);
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    page();
+    EXPECT_NEAR(highOf(*_children->getChild(0)), 7000.0, 1.0);
+    EXPECT_EQ(notes.count(kStaleWarning), 1u);
+    // bins are not to change while another thread culls
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    update(*_scene);
+    EXPECT_NEAR(highOf(*_root), 7000.0, 1.0);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    // which is told once, and not fitted anew in every frame
+    const osg::ref_ptr<osg::Callback> fitted = installedOn(*_root);
+    update(*_scene);
+    update(*_scene);
+    EXPECT_EQ(installedOn(*_root), fitted.get());
+    pageSingle();
+    update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_EQ(notes.count(kStaleWarning), 1u);
+    for (osg::Node* ancestor : {_root.get(), _north.get()}) {
+        EXPECT_LE(installedOn(*ancestor)->getBin().bin().altitude().lower,
+                  installedOn(*_single)->getBin().bin().altitude().lower);
     }
 }
 
-TEST(DeclaredBins, FinerTilesBesideTheMeshAboveThemAreDrawn) {
-    const TemporaryFolder folder;
-    ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(extentsDeg(10.0, 10.2, 10.2, 10.6), 0.0), folder / "east.osgb"));
-    for (const bool isLoadedBefore : {true, false}) {
-        PlainGlobe globe;
-        globe.plain->setFileName(1, folder / "east.osgb");
-        if (!isLoadedBefore) installBins(*globe.root);
-        const osg::ref_ptr<osg::Node> east = readBelow(*globe.plain);
-        ASSERT_TRUE(east);
-        putBelow(*globe.plain, east);
-        if (isLoadedBefore) installBins(*globe.root);
-        const auto drawsEast = [&](double longitude) {
-            return globe.draws(*east, CullView::lookAt(ecefDeg(10.1, longitude, 9500.0), ecefDeg(10.1, longitude, 0.0),
-                                                       {0, 0, 1}, 20.0));
-        };
-        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
-        update(*globe.root);
-        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
-        EXPECT_FALSE(drawsEast(11.0)) << isLoadedBefore;
-    }
+// By other bins than those of the tiles above.
+TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatGotNewBinsMeanwhile) {
+    writeAndOpen(500.0, 6000.0);
+    page();
+    _single = readBelow(*_north);
+    installBins(*_scene, {}, _file);
+    update(*_scene);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    putBelow(*_north, _single);
+    (void)_scene->getBound();
+    update(*_scene);
+    EXPECT_GE(highOf(*_north), 5999.0);
+    EXPECT_GE(highOf(*_root), 5999.0);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What the installer does to a scene graph. That the tiles it treats are culled rightly is tested in
-// AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
+// What the installer does to a scene graph, and what tiles of which heights are declared alone are culled by. That the
+// tiles it treats are culled rightly is tested in AnalyticBinCullCallbackTest.cpp; what it does to paged files in
+// PagingTest.cpp.
 
 #include "CountedReads.h"
 
@@ -52,15 +53,6 @@ TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
     EXPECT_TRUE(db.above->isCullingActive());
 }
 
-TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
-    Database db;
-    db.root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
-    const double size = 3396190.0 / osg::WGS_84_RADIUS_EQUATOR;
-    db.mesh->setMatrix(osg::Matrixd::scale(size, size, size));
-    installBins(*db.root);
-    EXPECT_EQ(installedOn(*db.tile)->getRadiiText(), "3396190 3376200");
-}
-
 TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
     Database db;
     ASSERT_EQ(installBins(*db.root), 1u);
@@ -77,31 +69,24 @@ TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
 
 TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     Database db;
-    const osg::ref_ptr<osg::MatrixTransform> shift = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
-    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::rotate(1.0, 0, 0, 1));
+    const osg::Matrixd shift = osg::Matrixd::translate(1, 2, 3), turn = osg::Matrixd::rotate(1.0, 0, 0, 1);
+    const auto tile = makeTransform(turn, {});
     setStoredBin(*tile, kBin);
-    shift->addChild(tile);
-    db.root->addChild(shift);
-    const osg::ref_ptr<osg::MatrixTransform> globeMover = new osg::MatrixTransform(osg::Matrixd::translate(9, 9, 9));
-    globeMover->addChild(db.root);
-    EXPECT_EQ(installBins(*globeMover), 2u);
-    EXPECT_EQ(installedOn(*tile)->getLocalToEcef(),
-              osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
+    db.root->addChild(makeTransform(shift, {tile}));
+    EXPECT_EQ(installBins(*makeTransform(osg::Matrixd::translate(9, 9, 9), {db.root})), 2u);
+    EXPECT_EQ(installedOn(*tile)->getLocalToEcef(), turn * shift);
     EXPECT_TRUE(installedOn(*db.tile)->getLocalToEcef().isIdentity());
 }
 
 // A tile's own frame, or that in which a transform that is a tile stands.
 TEST(BinInstaller, WithoutACoordinateSystemTilesStandInEcef) {
     const osg::Vec3d origin = ecefDeg(0, 0, 0);
-    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
-    mover->setDataVariance(osg::Object::DYNAMIC);
-    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::translate(origin));
-    const osg::ref_ptr<osg::MatrixTransform> leaf = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 7));
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    const auto group = makeGroup({});
+    const auto leaf = makeTransform(osg::Matrixd::translate(0, 0, 7), {});
+    const auto tile = makeTransform(osg::Matrixd::translate(origin), {leaf});
     for (osg::Node* const node : {group->asNode(), tile->asNode(), leaf->asNode()}) setStoredBin(*node, kBin);
-    mover->addChild(group);
-    mover->addChild(tile);
-    tile->addChild(leaf);
+    const auto mover = makeTransform(osg::Matrixd::translate(5, 5, 5), {group, tile});
+    mover->setDataVariance(osg::Object::DYNAMIC);
     EXPECT_EQ(installBins(*mover), 3u);
     EXPECT_TRUE(installedOn(*group)->getLocalToEcef().isIdentity());
     EXPECT_EQ(installedOn(*tile)->getLocalToEcef(), osg::Matrixd::translate(origin));
@@ -134,13 +119,10 @@ TEST(BinInstaller, FindsTheBinOfAPagedLodFromItsGeometryAndDeclaresTheHeightsBel
 
 TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
     constexpr double kFeet = 1.0 / 0.3048;
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(
-        new osg::EllipsoidModel(osg::WGS_84_RADIUS_EQUATOR * kFeet, osg::WGS_84_RADIUS_POLAR * kFeet));
     const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(10, 12, 20, 22), 100.0);
     mesh->postMult(osg::Matrixd::scale(kFeet, kFeet, kFeet));
     const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, "finer.osgb", 1e9f);
-    root->addChild(tile);
+    const auto root = makeGlobe({tile}, osg::WGS_84_RADIUS_EQUATOR * kFeet, osg::WGS_84_RADIUS_POLAR * kFeet);
     ASSERT_EQ(installBins(*root), 1u);
     const core::Interval altitude = installedOn(*tile)->getBin().bin().altitude();
     EXPECT_GE(altitude.upper, 8849.0 * kFeet);
@@ -167,22 +149,17 @@ TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
     EXPECT_EQ(notes.count("\"\""), 0u);
 }
 
-TEST(InstallBinsCallback, InstallsAtTheFirstUpdateAndOnlyThen) {
-    Database db;
-    db.root->setUpdateCallback(new InstallBinsCallback);
-    update(*db.above);
-    ASSERT_NE(installedOn(*db.tile), nullptr);
-    db.tile->setCullCallback(nullptr);
-    update(*db.above);
-    EXPECT_EQ(db.tile->getCullCallback(), nullptr);
-}
-
-TEST(InstallBinsCallback, AnExplicitInstallationWins) {
-    Database db;
-    db.root->setUpdateCallback(new InstallBinsCallback);
-    installBins(*db.above, by(Method::Sphere));
-    update(*db.above);
-    EXPECT_EQ(db.tile->getCullCallback(), nullptr);
+TEST(InstallBinsCallback, InstallsAtTheFirstUpdateAndOnlyThenUnlessThereWasAnExplicitInstallation) {
+    for (const bool isExplicit : {false, true}) {
+        Database db;
+        db.root->setUpdateCallback(new InstallBinsCallback);
+        if (isExplicit) installBins(*db.above, by(Method::Sphere));
+        update(*db.above);
+        ASSERT_EQ(installedOn(*db.tile) == nullptr, isExplicit);
+        db.tile->setCullCallback(nullptr);
+        update(*db.above);
+        EXPECT_EQ(db.tile->getCullCallback(), nullptr);
+    }
 }
 
 // File names that point outside of the database: the kit reads no file before the pager asks for it.
@@ -205,6 +182,88 @@ TEST(HostileNames, AreNotReadUntilThePagerAsks) {
     // the index beside the database is looked for, where its reader is there
     for (const auto& [name, count] : reads->counts()) EXPECT_EQ(name, folder / "root.osgb.bins");
     EXPECT_EQ(notes.count(""), 0u);
+}
+
+// Also in a viewer whose time stands still, and in one that draws a single frame.
+TEST(DeclaredBins, RequestAllFilesInTheFirstView) {
+    struct Globe : MeshGlobe {
+        Globe() {
+            visitor->setDatabaseRequestHandler(requests);
+            // just due, and long overdue
+            for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i]->setRange(1, 0.0F, i % 2 ? 1e8F : 8e6F);
+        }
+        void look() {
+            const osg::Vec3d eye = ecefDeg(22.5, 0.0, 3e6);
+            (void)cull(*scene, CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 120.0), *visitor, ++frame);
+        }
+        osg::ref_ptr<Requests> requests = new Requests;
+    } stock, globe;
+    installBins(*globe.root);
+    stock.look();
+    globe.look();
+    const std::size_t requested = globe.requests->nodes.size();
+    EXPECT_GT(requested, 6u);
+    for (std::size_t i = 0; i < stock.tiles.size(); ++i)
+        EXPECT_LE(globe.requests->nodes.count(globe.tiles[i]), stock.requests->nodes.count(stock.tiles[i])) << i;
+    globe.look();
+    EXPECT_EQ(globe.requests->nodes.size(), requested) << "none was left for later";
+}
+
+// A plain of so many degrees on a globe: its files may hold any terrain on earth.
+struct PlainGlobe : MeshGlobe {
+    explicit PlainGlobe(double degrees = 0.2) {
+        plain = makePaged(makeMeshTile(extentsDeg(10.0, 10.0 + degrees, 10.0, 10.0 + degrees), 0.0), "no.osgb", 1e9F);
+        root->addChild(plain);
+        visitor->setDatabaseRequestHandler(requests);
+    }
+    // From the south at this altitude, the lower edge of the picture this many degrees above the plain.
+    [[nodiscard]] bool drawsPlain(double altitude, double above) {
+        const double distance = 2.0e5;
+        const double up = distance * std::tan((above + 5.0) / 57.29578);
+        requests->files.clear();
+        return draws(*plain, CullView::lookAt(ecefDeg(8.3, 10.1, altitude), ecefDeg(10.1, 10.1, up), {0, 0, 1}, 10.0));
+    }
+
+    osg::ref_ptr<osg::PagedLOD> plain;
+    osg::ref_ptr<Requests> requests = new Requests;
+};
+
+// So no more tiles are drawn and no more files are read than without bins.
+TEST(DeclaredBins, TilesAreCulledByOsgsSphereToo) {
+    for (const bool isTileByTile : {false, true}) {
+        // smaller than the declared heights are high
+        PlainGlobe globe(0.02), stock(0.02);
+        installBins(*globe.root);
+        BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
+        for (const double above : {-3.0, 1.0, 2.0, 5.0}) {
+            const bool isDrawn = globe.drawsPlain(3000.0, above);
+            EXPECT_LE(isDrawn, stock.drawsPlain(3000.0, above)) << above;
+            EXPECT_EQ(globe.requests->files.count("no.osgb"), stock.requests->files.count("no.osgb")) << above;
+            EXPECT_EQ(globe.requests->files.count("no.osgb"), above < 0.0 ? 1u : 0u) << above;
+        }
+    }
+}
+
+TEST(DeclaredBins, FinerTilesBesideTheMeshAboveThemAreDrawn) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(extentsDeg(10.0, 10.2, 10.2, 10.6), 0.0), folder / "east.osgb"));
+    for (const bool isLoadedBefore : {true, false}) {
+        PlainGlobe globe;
+        globe.plain->setFileName(1, folder / "east.osgb");
+        if (!isLoadedBefore) installBins(*globe.root);
+        const osg::ref_ptr<osg::Node> east = readBelow(*globe.plain);
+        ASSERT_TRUE(east);
+        putBelow(*globe.plain, east);
+        if (isLoadedBefore) installBins(*globe.root);
+        const auto drawsEast = [&](double longitude) {
+            return globe.draws(*east, CullView::lookAt(ecefDeg(10.1, longitude, 9500.0), ecefDeg(10.1, longitude, 0.0),
+                                                       {0, 0, 1}, 20.0));
+        };
+        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
+        update(*globe.root);
+        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
+        EXPECT_FALSE(drawsEast(11.0)) << isLoadedBefore;
+    }
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 
 #include "KitTest.h"
 
-#include <osg/StateSet>
-
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -84,25 +82,18 @@ struct Neighbours : MeshGlobe {
     osg::ref_ptr<osg::Group> here, there;
 };
 
-TEST(Newcomers, AreModelsThatBelongToAnotherTileNow) {
+TEST(Newcomers, AreModelsAndTilesThatStoodBelowAnother) {
     Neighbours globe(false);
     const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const auto models = makeGroup({makeTower(place)});
+    const osg::ref_ptr<osg::Node> models = makeGroup({makeTower(place)}), leaf = globe.there->getChild(0);
     globe.there->addChild(models);
     globe.install();
-    EXPECT_TRUE(globe.draws(*models, beside(place)));
-    globe.there->removeChild(models);
-    globe.here->addChild(models);
-    globe.expectDrawn(*models, beside(place));
-}
-
-TEST(Newcomers, AreTilesThatStoodBelowAnother) {
-    Neighbours globe;
-    const osg::ref_ptr<osg::Node> leaf = globe.there->getChild(0);
-    EXPECT_TRUE(globe.draws(*leaf, downTo(22.5, 22.5)));
-    globe.there->removeChild(leaf);
-    globe.here->addChild(leaf);
-    globe.expectDrawn(*leaf, downTo(22.5, 22.5));
+    for (const auto& [content, view] : {std::pair(leaf, downTo(22.5, 22.5)), std::pair(models, beside(place))}) {
+        EXPECT_TRUE(globe.draws(*content, view));
+        globe.there->removeChild(content);
+        globe.here->addChild(content);
+        globe.expectDrawn(*content, view);
+    }
 }
 
 TEST(Newcomers, AreTilesThatTheApplicationAddsBelowAnother) {

@@ -108,20 +108,24 @@ TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEyeBeforeBinsAreInstalledAg
     EXPECT_EQ(globe.counts().hidden, 0u);
 }
 
+// Installs bins on the globe with a mesh of these posts below the eye, row by row from the south.
+void installOverGround(RidgeGlobe& globe, unsigned int posts, const std::function<osg::Vec3d(unsigned int)>& post) {
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(0.0, 0.2, 0.0, 0.2), 0.0, posts);
+    osg::Vec3Array& vertices = verticesOf(*mesh);
+    for (unsigned int i = 0; i < vertices.size(); ++i) vertices[i] = post(i) * osg::Matrixd::inverse(mesh->getMatrix());
+    globe.row[0]->setChild(0, mesh);
+    installBins(*globe.root);
+}
+
 // What a visitor has read of the ground in the views before is the ground below the eye, wherever the eye goes.
 TEST(Evidence, OfRoughGroundIsTheSameForAnEyeThatWandersAndForOneThatWasNeverThere) {
     constexpr unsigned int kPostsASide = 33;
     constexpr double kCell = 0.2 / (kPostsASide - 1);
     Random random(77);
     RidgeGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(0.0, 0.2, 0.0, 0.2), 0.0, kPostsASide);
-    const osg::Matrixd fromEcef = osg::Matrixd::inverse(mesh->getMatrix());
-    auto& vertices = static_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
-    for (unsigned int i = 0; i < vertices.size(); ++i)
-        vertices[i] =
-            ecefDeg(kCell * (i / kPostsASide), kCell * (i % kPostsASide), random.uniform(0.0, 3000.0)) * fromEcef;
-    globe.row[0]->setChild(0, mesh);
-    installBins(*globe.root);
+    installOverGround(globe, kPostsASide, [&](unsigned int i) {
+        return ecefDeg(kCell * (i / kPostsASide), kCell * (i % kPostsASide), random.uniform(0.0, 3000.0));
+    });
     double north = 0.1, east = 0.1;
     int above = 0, below = 0;
     for (int view = 0; view < 400; ++view) {
@@ -147,44 +151,15 @@ TEST(Evidence, IsMissingWithinARockThatHangsOverTheGround) {
     constexpr unsigned int kPostsASide = 9;
     constexpr double kCell = 0.025, kTop = 3000.0, kWithin = 2500.0;
     RidgeGlobe globe;
-    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(0.0, 0.2, 0.0, 0.2), 0.0, kPostsASide);
-    const osg::Matrixd fromEcef = osg::Matrixd::inverse(mesh->getMatrix());
-    auto& vertices = static_cast<osg::Vec3Array&>(*drawableOf(*mesh)->asGeometry()->getVertexArray());
-    for (unsigned int row = 0; row < kPostsASide; ++row) {
-        vertices[row * kPostsASide + 5] = ecefDeg(row * kCell, 2.5 * kCell, kTop) * fromEcef;
-        vertices[row * kPostsASide + 6] = ecefDeg(row * kCell, 6.0 * kCell, kTop) * fromEcef;
-    }
-    globe.row[0]->setChild(0, mesh);
-    installBins(*globe.root);
+    installOverGround(globe, kPostsASide, [](unsigned int i) {
+        const unsigned int column = i % kPostsASide;
+        const double east = column == 5 ? 2.5 : column == 6 ? 6.0 : column;
+        return ecefDeg(i / kPostsASide * kCell, east * kCell, column == 5 || column == 6 ? kTop : 0.0);
+    });
     for (const auto& [columns, isInRock] : {std::pair(2.1, false), std::pair(2.9, true), std::pair(2.1, false)}) {
         const osg::Vec3d eye = ecefDeg(4.05 * kCell, columns * kCell, kWithin);
         (void)globe.drawsFarTile(CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0));
         EXPECT_EQ(globe.counts().hidden == 0u, isInRock) << columns;
-    }
-}
-
-TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
-    const auto sign = [](const osg::Vec3d& at) {
-        const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(at);
-        ignoreDepth(*drawableOf(*tower));
-        return tower;
-    };
-    const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
-    const std::pair<bool, bool> pairs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
-    // in a file, and added by the application
-    for (const auto& [isLater, isTestedByItself] : pairs) {
-        MeshGlobe globe;
-        BinStatistics::of(*globe.visitor).setTileByTile(isTestedByItself);
-        const osg::ref_ptr<osg::Group> file = new osg::Group;
-        if (!isLater) file->addChild(sign(antipode));
-        globe.tiles[15]->setRange(1, 0.0f, 1e10f);
-        putBelow(*globe.tiles[15], file);
-        installBins(*globe.root);
-        if (isLater) {
-            EXPECT_FALSE(globe.drawsAntipode());
-            file->addChild(sign(antipode));
-        }
-        EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isLater << isTestedByItself;
     }
 }
 

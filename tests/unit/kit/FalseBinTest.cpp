@@ -39,9 +39,6 @@ protected:
         ASSERT_EQ(installBins(*_scene), 1u);
         page();
     }
-    // Tiles of which too little is said.
-    void writeFalse() { write(_south, 7000.0, claim(_south).toText()); }
-
     void page() {
         _leaf = readBelow(*_root);
         ASSERT_TRUE(_leaf);
@@ -94,7 +91,7 @@ TEST_F(FalseBins, AreWidenedByLeavesWhateverTheseClaim) {
 }
 
 TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
-    writeFalse();
+    write(_south, 7000.0, claim(_south).toText());
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
     update();
     EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
@@ -112,7 +109,7 @@ TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
 
 TEST_F(FalseBins, WithoutAGlobeAboveThemAreWidenedToo) {
     _hasGlobe = false;
-    writeFalse();
+    write(_south, 7000.0, claim(_south).toText());
     EXPECT_LT(altitudeOf(*_root).upper, 301.0);
     update();
     EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
@@ -182,17 +179,10 @@ TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
 
 // Nobody can tell whether such tiles fit into what is stored above.
 TEST_F(FalseBins, AboveAGlobeThatStandsElsewhereAreKeptVisible) {
-    const auto globe = [](double equator, double polar) {
-        osg::ref_ptr<osg::CoordinateSystemNode> node = new osg::CoordinateSystemNode;
-        node->setEllipsoidModel(new osg::EllipsoidModel(equator, polar));
-        node->addChild(makeMeshTile(extentsDeg(12, 28, 5, 35), 200.0));
-        return node;
-    };
-    const osg::ref_ptr<osg::CoordinateSystemNode> earth = globe(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
-    const osg::ref_ptr<osg::CoordinateSystemNode> map = globe(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+    const osg::ref_ptr<osg::Node> mesh = makeMeshTile(extentsDeg(12, 28, 5, 35), 200.0);
+    const auto earth = makeGlobe({mesh}), map = makeGlobe({mesh});
     map->setCoordinateSystem("PROJCS[\"map\"]");
-    const osg::ref_ptr<osg::MatrixTransform> turned = new osg::MatrixTransform(osg::Matrixd::rotate(1.0, 0, 0, 1));
-    turned->addChild(earth);
+    const auto turned = makeTransform(osg::Matrixd::rotate(1.0, 0, 0, 1), {earth});
     const auto readBelowRoot = [&](osg::Node& content) {
         write(_south, 200.0, "");
         pageInstead(content);
@@ -201,7 +191,8 @@ TEST_F(FalseBins, AboveAGlobeThatStandsElsewhereAreKeptVisible) {
     readBelowRoot(*earth);
     EXPECT_EQ(installedOn(*_root)->getBin(), claim(_whole)) << "the same globe";
     EXPECT_EQ(_notes.count(""), 0u);
-    const std::vector<osg::ref_ptr<osg::Node>> others{turned, globe(2e7, 2e7), globe(std::nan(""), 1.0), map};
+    const std::vector<osg::ref_ptr<osg::Node>> others{turned, makeGlobe({mesh}, 2e7, 2e7),
+                                                      makeGlobe({mesh}, std::nan(""), 1.0), map};
     for (std::size_t i = 0; i < others.size(); ++i) {
         readBelowRoot(*others[i]);
         EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << i;
@@ -248,14 +239,11 @@ TEST(FalseBinsOfOtherGlobes, AreFoundWhateverTheirUnit) {
     for (const double metre : {1.0, 1e-3, 1.0 / 6.4e6}) {
         const CapturedNotes notes;
         const core::GeodeticBin extents = extentsDeg(10, 12, 20, 22);
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-        root->setEllipsoidModel(
-            new osg::EllipsoidModel(osg::WGS_84_RADIUS_EQUATOR * metre, osg::WGS_84_RADIUS_POLAR * metre));
         const osg::ref_ptr<osg::MatrixTransform> tile = makeMeshTile(extents, 7000.0);
         tile->postMult(osg::Matrixd::scale(metre, metre, metre));
         const auto stored = makeGroup({tile});
         setStoredBin(*stored, AnalyticBin(extents.withAltitude({-4000.0 * metre, 300.0 * metre})));
-        root->addChild(stored);
+        const auto root = makeGlobe({stored}, osg::WGS_84_RADIUS_EQUATOR * metre, osg::WGS_84_RADIUS_POLAR * metre);
         EXPECT_EQ(installBins(*root), 1u);
         EXPECT_GE(installedOn(*stored)->getBin().bin().altitude().upper, 6999.0 * metre) << metre;
         EXPECT_EQ(notes.count(kWarning), 1u) << metre;

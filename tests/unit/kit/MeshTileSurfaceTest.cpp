@@ -43,9 +43,6 @@ TEST(TileSurface, HoldsAllWhereSkirtsCannotBeTold) {
     VpbMesh mesh;
     mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
     mesh.low = mesh.high = 0.0;
-    const auto verticesOf = [](osg::Geometry& drawn) -> osg::Vec3Array& {
-        return static_cast<osg::Vec3Array&>(*drawn.getVertexArray());
-    };
     const auto texCoordsOf = [](osg::Geometry& drawn) -> osg::Vec2Array& {
         return static_cast<osg::Vec2Array&>(*drawn.getTexCoordArray(0));
     };
@@ -79,35 +76,34 @@ TEST(TileSurface, FollowsFixedTransformsOnly) {
     const TileSurface expected = surfaceOf(*tile);
     const osg::Matrixd frame = tile->getMatrix();
     tile->setMatrix(osg::Matrixd::rotate(0.7, 1, 2, 3));
-    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(osg::Matrixd::inverse(tile->getMatrix()));
-    above->addChild(tile);
+    const auto above = makeTransform(osg::Matrixd::inverse(tile->getMatrix()), {tile});
     const TileSurface moved = tileSurface(*above, *kModel, frame);
     ASSERT_TRUE(moved.bin.valid());
     EXPECT_NEAR(moved.bin.bin().altitude().lower, expected.bin.bin().altitude().lower, 1e-3);
     EXPECT_NEAR(moved.bin.bin().longitude().upper, expected.bin.bin().longitude().upper, 1e-9);
 
+    const auto isKnown = [&frame](osg::Node& node) { return tileSurface(node, *kModel, frame).bin.valid(); };
     above->setDataVariance(osg::Object::DYNAMIC);
-    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_FALSE(isKnown(*above));
     above->setDataVariance(osg::Object::STATIC);
     above->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_FALSE(isKnown(*above));
     above->setReferenceFrame(osg::Transform::RELATIVE_RF);
     const osg::Matrixd affine = above->getMatrix();
     osg::Matrixd dividing = affine;
     dividing(1, 3) = 165.0;
     above->setMatrix(dividing);
-    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_FALSE(isKnown(*above));
     EXPECT_FALSE(tileSurface(*tile, *kModel, dividing).bin.valid());
     above->setMatrix(affine);
-    EXPECT_TRUE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_TRUE(isKnown(*above));
     struct Turning : osg::MatrixTransform {};
     const osg::ref_ptr<osg::MatrixTransform> turning = new Turning;
     turning->setMatrix(affine);
     turning->addChild(tile);
-    EXPECT_FALSE(tileSurface(*turning, *kModel, frame).bin.valid()) << "a class that may turn to the eye";
-    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    above->addChild(paged);
-    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_FALSE(isKnown(*turning)) << "a class that may turn to the eye";
+    above->addChild(new osg::PagedLOD);
+    EXPECT_FALSE(isKnown(*above));
 }
 
 TEST(TileSurface, HoldsVerticesInTheFrameOfTheGlobeWhereTheyAreDrawn) {
@@ -132,11 +128,8 @@ TEST(TileSurface, HoldsVerticesInTheFrameOfTheGlobeWhereTheyAreDrawn) {
 TEST(TileSurface, HoldsLinesPointsAndShapes) {
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     const osg::ref_ptr<osg::Geometry> road = new osg::Geometry;
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    vertices->push_back(osg::Vec3(6378137.0f, 0.0f, 0.0f));
-    vertices->push_back(osg::Vec3(6378137.0f, 100000.0f, 0.0f));
-    vertices->push_back(osg::Vec3(6379137.0f, 0.0f, 1000.0f));
-    road->setVertexArray(vertices);
+    const osg::Vec3 vertices[] = {{6378137.0f, 0.0f, 0.0f}, {6378137.0f, 1e5f, 0.0f}, {6379137.0f, 0.0f, 1000.0f}};
+    road->setVertexArray(new osg::Vec3Array(3, vertices));
     geode->addDrawable(road);
     EXPECT_FALSE(surfaceOf(*geode).bin.valid());
     road->addPrimitiveSet(new osg::DrawArrays(GL_LINE_STRIP, 0, 2));
@@ -273,26 +266,19 @@ TEST(TileSurface, HoldsABillboardHoweverItTurns) {
     }
 }
 
-TEST(TileSurface, IsUnknownOfABillboardWithoutAPositionForEachDrawable) {
+TEST(TileSurface, IsUnknownWhereThereIsNoTerrainNoPositionForEachDrawableOrNoRightRadii) {
     Random random(10);
     const auto billboard = randomBillboard(osg::Billboard::POINT_ROT_EYE, true, random);
     const osg::Matrixd frame = osg::Matrixd::translate(ecefDeg(47, 11, 1000.0));
     ASSERT_TRUE(tileSurface(*billboard, *kModel, frame, 1.0).bin.valid());
     billboard->getPositionList().pop_back();
     EXPECT_FALSE(tileSurface(*billboard, *kModel, frame, 1.0).bin.valid());
-}
-
-TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {
-    const osg::ref_ptr<osg::Group> empty = new osg::Group;
-    EXPECT_FALSE(surfaceOf(*empty).bin.valid());
+    EXPECT_FALSE(surfaceOf(*makeGroup({})).bin.valid());
     const osg::ref_ptr<osg::Geode> planar = new osg::Geode;
     planar->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(500.0f, 0.0f, 0.0f), 1000.0f)));
     EXPECT_FALSE(surfaceOf(*planar).bin.valid());
-}
-
-TEST(TileSurface, IsUnknownOnAGlobeWithoutRightRadii) {
     const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, 20, 21), 200.0);
-    EXPECT_TRUE(tileSurface(*tile, osg::EllipsoidModel(), osg::Matrixd::identity()).bin.valid());
+    EXPECT_TRUE(surfaceOf(*tile).bin.valid());
     EXPECT_FALSE(tileSurface(*tile, osg::EllipsoidModel(std::nan(""), 6.4e6), osg::Matrixd::identity()).bin.valid());
 }
 

@@ -60,8 +60,7 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
     // tiles below a transform are not tested together; nor are those below an osgTerrain::Terrain
     GlobeWithModels moved;
-    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
-    for (const auto& tile : moved.tiles) above->addChild(tile);
+    const auto above = makeTransform({}, {moved.tiles.begin(), moved.tiles.end()});
     above->addChild(moved.models.group);
     moved.root->removeChildren(0, moved.root->getNumChildren());
     moved.root->addChild(above);
@@ -70,7 +69,7 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     // in the file of a tile
     GlobeWithModels filed;
     setFinerWithin(*filed.tiles[19], 1e9f);
-    putBelow(*filed.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), filed.models.group}).release());
+    putBelow(*filed.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), filed.models.group}));
     filed.install();
     EXPECT_FALSE(filed.isLookedAt(*filed.models.model));
     // where others move
@@ -222,27 +221,17 @@ CullView ofAllTiles() {
     return CullView::lookAt(osg::Vec3d(1e8, 0, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1), 20.0);
 }
 
-TEST(Rest, BinsThatGainNothingAreNotTested) {
-    RestingGlobe globe(optionsOf("horizon=off"));
+TEST(Rest, IsForBinsThatGainNothingUntilTheyGainOrTilesCome) {
+    RestingGlobe globe(optionsOf("horizon=off")), other(optionsOf("horizon=off"));
     EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
     EXPECT_TRUE(globe.rests(ofAllTiles()));
     EXPECT_EQ(globe.last.drawn.size(), globe.tiles.size());
-}
-
-TEST(Rest, EndsWithinAFewDozenViewsWhereBinsGain) {
-    RestingGlobe globe(optionsOf("horizon=off"));
-    ASSERT_TRUE(globe.rests(ofAllTiles()));
     // in a corner of a tile, which the spheres of three others reach
     EXPECT_TRUE(globe.testsBins(downTo(4, -4), 33));
     EXPECT_FALSE(globe.rests(downTo(4, -4)));
-}
-
-TEST(Rest, EndsWhenTilesCome) {
-    RestingGlobe globe(optionsOf("horizon=off"));
-    ASSERT_TRUE(globe.rests(ofAllTiles()));
-    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0);
-    ASSERT_TRUE(addTile(*globe.root, *tile));
-    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
+    ASSERT_TRUE(other.rests(ofAllTiles()));
+    ASSERT_TRUE(addTile(*other.root, *makeMeshTile(extentsDeg(10, 11, -20, -19), 100.0)));
+    EXPECT_TRUE(other.testsBins(ofAllTiles(), 1));
 }
 
 TEST(Rest, IsForEachOfManyDatabases) {

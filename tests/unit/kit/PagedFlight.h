@@ -5,10 +5,16 @@
 
 #include "CullFixture.h"
 
+#include <osg/Drawable>
 #include <osg/FrameStamp>
 #include <osg/Node>
+#include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
 #include <osgUtil/UpdateVisitor>
+
+#include <chrono>
+#include <support/VisitNodes.h>
+#include <thread>
 
 namespace osgAnalyticBin::test {
 
@@ -17,45 +23,116 @@ namespace osgAnalyticBin::test {
 class PagedFlight {
 public:
     /// `targetMaximum`: number of PagedLODs above which the pager drops what is out of view.
-    explicit PagedFlight(osg::Node& scene, unsigned int targetMaximum = 300);
-    ~PagedFlight();
+    explicit PagedFlight(osg::Node& scene, unsigned int targetMaximum = 300)
+        : _scene(scene), _pager(osgDB::DatabasePager::create()), _requests(new Requests(_pager)) {
+        _pager->setDoPreCompile(false);
+        _pager->setTargetMaximumNumberOfPageLOD(targetMaximum);
+        _pager->registerPagedLODs(&scene, 0);
+        _recorder->setDatabaseRequestHandler(_requests);
+        _update->setFrameStamp(_stamp);
+    }
+    ~PagedFlight() { _pager->cancel(); }
     PagedFlight(const PagedFlight&) = delete;
     PagedFlight& operator=(const PagedFlight&) = delete;
 
-    void frame(const CullView& view);
-    void frames(const CullView& view, int count);
+    void frame(const CullView& view) {
+        // the pager's threads get this much real time in each frame
+        constexpr std::chrono::milliseconds kPause{2};
+        _stamp->setFrameNumber(_stamp->getFrameNumber() + 1);
+        _stamp->setReferenceTime(_stamp->getFrameNumber() / 60.0);
+        _update->setTraversalNumber(_stamp->getFrameNumber());
+        _pager->updateSceneGraph(*_stamp);
+        _scene.accept(*_update);
+        _pager->signalBeginFrame(_stamp);
+        _requests->names.clear();
+        _recorder->drawn.clear();
+        _scene.getBound();
+        cull(_scene, view, *_recorder, _stamp->getFrameNumber(), _stamp->getReferenceTime());
+        _pager->signalEndFrame();
+        std::this_thread::sleep_for(kPause);
+    }
+    void frames(const CullView& view, int count) {
+        for (int i = 0; i < count; ++i) frame(view);
+    }
 
     /// Frames until the condition holds; it is asked after each. Returns: false when it does not within a minute.
-    bool framesUntil(const CullView& view, const std::function<bool()>& condition);
+    bool framesUntil(const CullView& view, const std::function<bool()>& condition) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (std::chrono::steady_clock::now() < end) {
+            frame(view);
+            if (condition()) return true;
+        }
+        return false;
+    }
 
     /// Frames until everything in view is there.
-    bool load(const CullView& view);
+    bool load(const CullView& view) {
+        return framesUntil(view, [this] { return wanted().empty(); });
+    }
 
     /// Names of files that the last frame asked for.
-    [[nodiscard]] const std::set<std::string>& wanted() const;
+    [[nodiscard]] const std::set<std::string>& wanted() const { return _requests->names; }
 
     /// What the last frame drew: center, in the eye's frame, and radius of each drawable.
-    [[nodiscard]] const std::multiset<std::string>& drawn() const;
+    [[nodiscard]] const std::multiset<std::string>& drawn() const { return _recorder->drawn; }
 
     /// Simulated seconds.
     [[nodiscard]] double time() const { return _stamp->getReferenceTime(); }
 
 private:
-    class Requests;
-    class Recorder;
+    /// Notes what is asked for, and passes it on.
+    struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
+        explicit Requests(osgDB::DatabasePager* to) : pager(to) {}
+        void requestNodeFile(const std::string& fileName, osg::NodePath& path, float priority,
+                             const osg::FrameStamp* stamp, osg::ref_ptr<osg::Referenced>& request,
+                             const osg::Referenced* options) override {
+            names.insert(fileName);
+            pager->requestNodeFile(fileName, path, priority, stamp, request, options);
+        }
+        osgDB::DatabasePager* const pager;
+        std::set<std::string> names;
+    };
+
+    /// Notes what is drawn.
+    struct Recorder : osgUtil::CullVisitor {
+        using osgUtil::CullVisitor::apply;
+        void apply(osg::Drawable& drawable) override {
+            const unsigned int before = _currentReuseRenderLeafIndex;
+            osgUtil::CullVisitor::apply(drawable);
+            if (_currentReuseRenderLeafIndex == before) return;
+            const osg::BoundingSphere sphere = drawable.getBound();
+            const osg::Vec3d center = osg::Vec3d(sphere.center()) * *getModelViewMatrix();
+            std::string key;
+            for (const double value : {center.x(), center.y(), center.z(), static_cast<double>(sphere.radius())})
+                key += std::to_string(std::llround(value)) + ' ';
+            drawn.insert(key);
+        }
+        std::multiset<std::string> drawn;
+    };
 
     osg::Node& _scene;
-    osg::ref_ptr<osgDB::DatabasePager> _pager;
-    osg::ref_ptr<Requests> _requests;
-    osg::ref_ptr<Recorder> _recorder;
-    osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
-    osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
+    const osg::ref_ptr<osgDB::DatabasePager> _pager;
+    const osg::ref_ptr<Requests> _requests;
+    const osg::ref_ptr<Recorder> _recorder = new Recorder;
+    const osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
+    const osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
 };
 
 /// From 300 km above the equator, down at 45 degrees to the east (1) or west (-1).
-[[nodiscard]] CullView lookDown(double side);
+[[nodiscard]] inline CullView lookDown(double side) {
+    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+    return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
+}
 
 /// Number of PagedLODs below the node that have a paged child at present.
-[[nodiscard]] std::size_t loadedTiles(osg::Node& scene);
+[[nodiscard]] inline std::size_t loadedTiles(osg::Node& scene) {
+    std::size_t count = 0;
+    visitNodes(scene, [&](osg::Node& node) {
+        const auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < std::min(paged->getNumChildren(), paged->getNumFileNames()); ++i)
+            if (!paged->getFileName(i).empty()) ++count;
+    });
+    return count;
+}
 
 }  // namespace osgAnalyticBin::test

@@ -41,10 +41,8 @@ protected:
     }
     // A tile below a transform.
     osg::ref_ptr<osg::PagedLOD> addMoved() {
-        const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
         osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
-        moved->addChild(tile);
-        _root->addChild(moved);
+        _root->addChild(makeTransform(osg::Matrixd::translate(1, 2, 3), {tile}));
         return tile;
     }
 
@@ -138,14 +136,12 @@ TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
 
 TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
     installBins(*_root);
-    std::ifstream whole(file("children.osgb"), std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+    const std::string bytes = textOfFile(file("children.osgb"));
     ASSERT_GT(bytes.size(), 500u);
     EXPECT_FALSE(osgDB::readRefNodeFile(file("absent.osgb"), readOptionsOf(*_paged)));
     for (std::size_t length = 0; length + 1 < bytes.size(); length += 1 + bytes.size() / 97) {
         // a new name each time: a file that failed is left alone for a while
-        const std::string cut = file("cut_" + std::to_string(length) + ".osgb");
-        std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
+        const std::string cut = _folder.write("cut_" + std::to_string(length) + ".osgb", bytes.substr(0, length));
         const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(cut, readOptionsOf(*_paged));
         EXPECT_FALSE(node) << "cut after " << length << " of " << bytes.size() << " bytes";
     }
@@ -164,15 +160,6 @@ TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
     EXPECT_FALSE(readChildren());
 }
 
-osg::ref_ptr<osg::PagedLOD> makePagedLod(std::initializer_list<const char*> files) {
-    osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
-    node->addChild(new osg::Group, 1e6f, 1e10f);
-    unsigned int child = 1;
-    for (const char* file : files) node->setFileName(child++, file);
-    setStoredBin(*node, AnalyticBin(core::GeodeticBin::fromDegrees({0, 10}, {0, 10}, {0, 100})));
-    return node;
-}
-
 CullOptions withExpiry(double seconds, Method method = Method::Quadratic) {
     CullOptions options = by(method);
     options.expiry = seconds;
@@ -180,7 +167,8 @@ CullOptions withExpiry(double seconds, Method method = Method::Quadratic) {
 }
 
 TEST(PagingExpiry, IsRaisedOnPagedChildrenWhereNobodyHasSetIt) {
-    const auto node = makePagedLod({"finer.osgb", "finest.osgb"});
+    const auto node = makePagedTile("finer.osgb");
+    node->setFileName(2, "finest.osgb");
     node->setMinimumExpiryTime(2, 1.0);
     for (const double seconds : {3.0, 8.0, 1.0, 0.5, 0.0}) {
         installBins(*node, withExpiry(seconds));
@@ -203,39 +191,28 @@ TEST(PagingExpiry, IsRaisedOnPagedChildrenWhereNobodyHasSetIt) {
     }
 }
 
-class TurningTheHead : public ::testing::Test {
-protected:
-    void SetUp() override {
-        const std::string file = writeSyntheticDatabase(_folder.path());
-        ASSERT_FALSE(file.empty());
-        _scene = osgDB::readRefNodeFile(file);
-        ASSERT_TRUE(_scene);
-        osgDB::Registry::instance()->setReadFileCallback(_reads);
-    }
-    void TearDown() override { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
-
-    TemporaryFolder _folder;
-    osg::ref_ptr<osg::Node> _scene;
-    osg::ref_ptr<CountedReads> _reads = new CountedReads;
-};
-
 // Fewer than the scene has at first, so that the pager drops whatever it may.
 constexpr unsigned int kSmallTarget = 10;
 constexpr int kFramesOfNearlyTwoSeconds = 118;
 
-TEST_F(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
+TEST(TurningTheHead, AndBackWithinTwoSecondsReadsNothingAgainUnlikeByOsgsOwnRule) {
+    const TemporaryFolder folder;
+    const std::string file = writeSyntheticDatabase(folder.path());
+    ASSERT_FALSE(file.empty());
     for (const CullOptions& options : {CullOptions(), withExpiry(0.0)}) {
-        osgDB::Registry::instance()->setReadFileCallback(_reads = new CountedReads);
-        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "globe.osgb");
+        const osg::ref_ptr<CountedReads> reads = new CountedReads;
+        osgDB::Registry::instance()->setReadFileCallback(reads);
+        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
         installBins(*scene, options);
         PagedFlight flight(*scene, kSmallTarget);
         ASSERT_TRUE(flight.load(lookDown(+1)));
-        const std::size_t files = _reads->counts().size();
+        const std::size_t files = reads->counts().size();
         ASSERT_GT(files, 2u);
         flight.frames(lookDown(-1), kFramesOfNearlyTwoSeconds);
-        EXPECT_GT(_reads->counts().size(), files);
+        EXPECT_GT(reads->counts().size(), files);
         ASSERT_TRUE(flight.load(lookDown(+1)));
-        EXPECT_EQ(_reads->most() > 1, options.expiry == 0.0);
+        EXPECT_EQ(reads->most() > 1, options.expiry == 0.0);
+        osgDB::Registry::instance()->setReadFileCallback(nullptr);
     }
 }
 
@@ -294,18 +271,13 @@ protected:
     void TearDown() override { osgDB::Registry::instance()->clearObjectCache(); }
 
     // Options of a tile below a globe whose read callback is `reader`.
-    osg::ref_ptr<osgDB::Options> pagingOptions(osgDB::Options::CacheHintOptions hint,
-                                               const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel(),
-                                               const CullOptions& cullOptions = {}) {
+    osg::ref_ptr<osgDB::Options> pagingOptions(osgDB::Options::CacheHintOptions hint) {
         const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
         own->setObjectCacheHint(hint);
         own->setReadFileCallback(_reader);
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-        root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid));
         const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
         tile->setDatabaseOptions(own);
-        root->addChild(tile);
-        installBins(*root, cullOptions);
+        installBins(*makeGlobe({tile}));
         return dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions());
     }
 
@@ -348,10 +320,9 @@ TEST_F(ObjectCache, AProgramMayEndWithBinsInIt) {
         const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
         own->setObjectCacheHint(osgDB::Options::CACHE_ALL);
         own->setReadFileCallback(new Reader);
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
         const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
         tile->setDatabaseOptions(own);
-        root->addChild(tile);
+        const auto root = makeGlobe({tile});
         installBins(*root);
         kept = osgDB::readRefNodeFile(_file, static_cast<osgDB::Options*>(tile->getDatabaseOptions()));
         tile->addChild(kept);

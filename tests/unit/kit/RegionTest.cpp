@@ -68,13 +68,20 @@ struct Pair {
 // In the middle of the root tile, and at its border.
 const core::GeodeticBin kPlaces[] = {extentsDeg(20, 30, 10, 20), extentsDeg(10, 20, 30, 40)};
 
+// Nobody knows of those that are longer than the root tile's before the tile is there. Stored bins hold what leans out
+// of them at a border.
 TEST(Skirts, AreInTheBinsOfTheirTileAndOfThatAbove) {
-    for (const auto& place : kPlaces) {
+    for (const auto& [place, isStored] :
+         {std::pair(kPlaces[0], false), std::pair(kPlaces[0], true), std::pair(kPlaces[1], false)}) {
         for (const float scale : {1.0f, 3.0f, 0.5f}) {
-            const Pair pair(place);
-            pair.terrain->setVerticalScale(scale);
-            installBins(*pair.terrain, optionsOf("heights=0..100"));
-            pair.expectHeld();
+            for (const float rootSkirt : {kSkirt, 100.0f}) {
+                const Pair pair(place, rootSkirt);
+                pair.terrain->setVerticalScale(scale);
+                if (isStored)
+                    setStoredBin(*pair.root, AnalyticBin(extentsDeg(10, 50, 0, 40).withAltitude({-9000, 100})));
+                installBins(*pair.terrain, optionsOf("heights=0..100"));
+                pair.expectHeld();
+            }
         }
     }
 }
@@ -106,20 +113,6 @@ TEST(Skirts, HangBelowStoredBins) {
     setStoredBin(*pair.tile, tileSurface(*pair.tile, osg::EllipsoidModel(), osg::Matrixd()).bin);
     installBins(*pair.terrain, optionsOf("heights=0..100"));
     pair.expectHeld();
-}
-
-// Nobody knows before the tile is there.
-TEST(Skirts, LongerThanThoseOfTheTileAboveExpandItsBin) {
-    for (const bool isStored : {false, true}) {
-        for (const float scale : {1.0f, 3.0f, 0.5f}) {
-            const Pair pair(kPlaces[0], 100.0f);
-            pair.terrain->setVerticalScale(scale);
-            if (isStored)
-                setStoredBin(*pair.root, AnalyticBin(core::GeodeticBin::fromDegrees({10, 50}, {0, 40}, {-9000, 100})));
-            installBins(*pair.terrain, optionsOf("heights=0..100"));
-            pair.expectHeld();
-        }
-    }
 }
 
 enum class Callback { None, Planar, Geocentric };
@@ -196,10 +189,8 @@ TEST(PlanarDatabase, LocatorsInDegreesArePlanarToo) {
 }
 
 osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(new osg::Vec3Array(vertices.begin(), vertices.end()));
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices.size())));
-    return geometry;
+    return makeGeometry(new osg::Vec3Array(vertices.begin(), vertices.end()),
+                        new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices.size())));
 }
 
 TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
@@ -239,9 +230,8 @@ TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
         far.isTerrain = isTerrain;
         EXPECT_EQ(installedOnMap(*root, far.mesh(0, 0, 0)), Callback::None) << "farther than latitudes reach";
     }
-    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
+    const auto moving = makeTransform({}, {triangles({a, b, c})});
     moving->setDataVariance(osg::Object::DYNAMIC);
-    moving->addChild(triangles({a, b, c}));
     EXPECT_EQ(installedOnMap(*root, moving), Callback::None);
     // outside of paged files a mesh is no tile
     root->removeChildren(0, root->getNumChildren());
@@ -253,10 +243,10 @@ TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
 TEST(PlanarDatabase, TextTellsAMap) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
     EXPECT_NE(callback->getRadiiText(), "map");
-    callback->setRadiiText("map");
-    EXPECT_EQ(callback->getRadiiText(), "map");
-    callback->setRadiiText("6378137 6356752");
-    EXPECT_EQ(callback->getRadiiText(), "6378137 6356752");
+    for (const char* const text : {"map", "6378137 6356752"}) {
+        callback->setRadiiText(text);
+        EXPECT_EQ(callback->getRadiiText(), text);
+    }
 }
 
 TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {

@@ -121,37 +121,6 @@ TEST(Spheres, OfPagedLodsThatTheApplicationHasSetHoldWhatIsLoadedBelow) {
     }
 }
 
-// An application's own bound of a group. What OSG leaves out by it hides nothing.
-struct FixedBound : osg::Node::ComputeBoundingSphereCallback {
-    explicit FixedBound(const osg::BoundingSphere& sphere) : bound(sphere) {}
-    osg::BoundingSphere computeBound(const osg::Node&) const override { return bound; }
-    const osg::BoundingSphere bound;
-};
-
-TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
-    const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f),
-        small(ecefDeg(22.5, -22.5, 0.0), 1.0f);
-    const auto expectDrawn = [](const osg::BoundingSphere& bound, bool isDrawn, bool hasCallback) {
-        MeshGlobe globe;
-        const osg::ref_ptr<osg::Group> group = new osg::Group;
-        // OSG itself enters it
-        if (hasCallback) group->setCullCallback(new osg::NodeCallback);
-        globe.root->replaceChild(globe.tiles[19], group);
-        group->addChild(globe.tiles[19]);
-        group->setComputeBoundingSphereCallback(new FixedBound(bound));
-        installBins(*globe.root);
-        CullView view = MeshGlobe::fromAbove();
-        view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
-        EXPECT_EQ(globe.draws(*globe.tiles[19], view), isDrawn) << hasCallback;
-        EXPECT_EQ(globe.draws(*globe.tiles[15], view), !isDrawn) << hasCallback;
-    };
-    for (const bool hasCallback : {false, true}) {
-        expectDrawn(around, true, hasCallback);
-        expectDrawn(elsewhere, false, hasCallback);
-        expectDrawn(small, false, hasCallback);
-    }
-}
-
 // Houses in a file of their own, and a finer level of the ground beside them.
 TEST(Spheres, OfObjectsStayTheirOnlyTest) {
     MeshGlobe globe;

@@ -150,9 +150,7 @@ TEST(FailedReads, WaitsDoubleFromOneSecondToTen) {
 
 TEST(FailedReads, SuccessForgetsEarlierFailures) {
     FailedReads failures;
-    failures.note("late", false, kStart);
-    failures.note("late", false, kStart);
-    failures.note("late", true, kStart);
+    for (const bool isRead : {false, false, true}) failures.note("late", isRead, kStart);
     EXPECT_TRUE(failures.mayRead("late", kStart));
     failures.note("late", false, kStart);
     EXPECT_TRUE(failures.mayRead("late", kStart + FailedReads::kFirstWait));

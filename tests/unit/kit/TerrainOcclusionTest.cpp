@@ -86,13 +86,6 @@ TEST(TerrainOcclusion, HidesNoMeshByItsOwnHeightWhereMoreIsAdded) {
     EXPECT_GE(globe.counts().occluded, 1u) << "other tiles";
 }
 
-TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
-    InstalledRidge globe;
-    BinStatistics::of(*globe.visitor).setTileByTile(true);
-    EXPECT_FALSE(globe.drawsFarTile());
-    EXPECT_GE(globe.counts().occluded, 1u);
-}
-
 TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
     InstalledRidge globe;
     BinStatistics& statistics = BinStatistics::of(*globe.visitor);
@@ -243,27 +236,13 @@ TEST(TerrainOcclusion, FindsTheGroundBelowTheEyeInMeshesOfDoubles) {
     }
 }
 
-TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
-    InstalledRidge globe;
-    CullView view = RidgeGlobe::alongRow();
-    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
-    EXPECT_FALSE(globe.drawsFarTile(view));
-    EXPECT_GE(globe.counts().occluded, 1u);
-    globe.visitor->setSmallFeatureCullingPixelSize(500.0F);
-    (void)globe.drawsFarTile(view);
-    EXPECT_EQ(globe.counts().occluded, 0u);
-}
-
 // A globe of osgTerrain tiles. Along the equator stand tiles of 0.2 degrees: a plain, and in the third tile a ridge,
 // which tile 4 lies behind. The eye is above the middle of tile 0.
 struct TerrainGlobe {
     TerrainGlobe() {
         terrain->setEllipsoidModel(new osg::EllipsoidModel);
-        for (int i = 0; i < 32; ++i) {
-            const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
-            if (i != 20)
-                terrain->addChild(makeFlatTile(extentsDeg(south, south + 45.0, west, west + 45.0), 0.0f, 0.0f, 65));
-        }
+        for (int i = 0; i < 32; ++i)
+            if (i != 20) terrain->addChild(makeFlatTile(extentsOfTile(i), 0.0f, 0.0f, 65));
         terrain->addChild(makeFlatTile(extentsDeg(0.2, 45.0, 0.0, 45.0), 0.0f, 0.0f, 65));
         for (int i = 0; i < 225; ++i) {
             row.push_back(makeFlatTile(extentsDeg(0.0, 0.2, 0.2 * i, 0.2 * i + 0.2), i == 2 ? 8000.0f : 0.0f));
@@ -293,23 +272,6 @@ TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves)
     for (; awaited < 100 && globe.drawsFarTile(); ++awaited) continue;
     EXPECT_GE(awaited, 1);
     EXPECT_LT(awaited, 100);
-}
-
-// A technique of the application's may draw nothing, and one of OSG's has no mesh before the next update.
-TEST(OccludingTerrainTiles, HideNothingOnceTheyHaveAnotherTechnique) {
-    struct OtherTechnique : osgTerrain::GeometryTechnique {};
-    for (const bool isOsgs : {false, true}) {
-        TerrainGlobe globe;
-        installBins(*globe.terrain, withOcclusion());
-        for (int i = 0; i < 3; ++i) EXPECT_FALSE(globe.drawsFarTile());
-        const auto change = [&] {
-            osgTerrain::TerrainTile& ridge = *globe.row[2];
-            isOsgs ? ridge.setTerrainTechnique(new osgTerrain::GeometryTechnique)
-                   : ridge.setTerrainTechnique(new OtherTechnique);
-        };
-        EXPECT_TRUE(globe.drawsFarTile(change)) << isOsgs;
-        EXPECT_EQ(globe.drawsFarTile(), !isOsgs);
-    }
 }
 
 // With a technique that the application vouches for, the horizon is used if the eye is surely above what is drawn. A

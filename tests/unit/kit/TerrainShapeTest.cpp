@@ -6,6 +6,8 @@
 
 #include "KitTest.h"
 
+#include <osgAnalyticBin/Declarations.h>
+
 namespace osgAnalyticBin::test {
 namespace {
 
@@ -14,6 +16,26 @@ osg::ref_ptr<osgTerrain::TerrainTile> makeHilly(const core::GeodeticBin& extents
     return makeTerrainTile(
         extents, 9, 9, [&](unsigned int, unsigned int) { return static_cast<float>(random.uniform(-3000.0, high)); });
 }
+
+// The names of tiles that a cull traversal reaches, noted by callbacks on nodes before bins are installed.
+class ReachedTiles {
+public:
+    void watch(osg::Node& node, const std::string& name) {
+        const osg::ref_ptr<VisitRecorder> recorder = new VisitRecorder(name, _names);
+        setTraversesAlways(*recorder);
+        node.setCullCallback(recorder);
+    }
+    const std::set<std::string>& in(osg::Node& scene, const osg::Vec3d& eye, const osg::Vec3d& center, double fovDeg) {
+        _names.clear();
+        osg::Vec3d up = eye ^ center;
+        if (up.length2() == 0.0) up.set(0, 0, 1);
+        (void)cull(scene, CullView::lookAt(eye, center, up, fovDeg));
+        return _names;
+    }
+
+private:
+    std::set<std::string> _names;
+};
 
 // A terrain of 6 x 6 tiles, half a degree wide, that are drawn by osgTerrain itself.
 struct Hills {

@@ -20,13 +20,14 @@ BinCounts countsOf(osg::Node& scene, const CullView& view) {
 // Bins that are stored hold skirts, which lean outwards; the meshes themselves end before.
 TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
     MeshGlobe globe;
-    constexpr double kLean = 0.0005;
+    constexpr double kLean = 1e-5;  // radians
     for (int i = 0; i < 32; ++i) {
-        const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
+        const core::GeodeticBin own = extentsOfTile(i);
         setStoredBin(*globe.tiles[static_cast<std::size_t>(i)],
-                     AnalyticBin(core::GeodeticBin::fromDegrees(
-                         {std::max(south - kLean, -90.0), std::min(south + 45.0 + kLean, 90.0)}, {west, west + 45.0},
-                         {-49000.0, 1000.0})));
+                     AnalyticBin({{std::max(own.latitude().lower - kLean, -osg::PI_2),
+                                   std::min(own.latitude().upper + kLean, osg::PI_2)},
+                                  own.longitude(),
+                                  {-49000.0, 1000.0}}));
     }
     installBins(*globe.root, declaredHorizon());
     osgUtil::Optimizer optimizer;

@@ -9,12 +9,8 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-osg::ref_ptr<osg::MatrixTransform> makeLeaf(double x = 0.0) {
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(x, 0, 0));
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(new osg::Geometry);
-    transform->addChild(geode);
-    return transform;
+osg::ref_ptr<osg::MatrixTransform> makeLeaf() {
+    return placed(new osg::Geometry, {});
 }
 
 std::vector<osg::Node*> nodesOf(const std::vector<FoundTile>& tiles) {
@@ -32,13 +28,10 @@ TileFrame frameBelowATile() {
 }
 
 TEST(TileFinder, FindsPagedMeshesAndTheLeavesBesideThem) {
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
     const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "c.osgb");
     const osg::ref_ptr<osg::Node> leaf = makeLeaf();
     const osg::ref_ptr<osgTerrain::TerrainTile> terrainLeaf = new osgTerrain::TerrainTile;
-    file->addChild(leaf);
-    file->addChild(paged);
-    file->addChild(terrainLeaf);
+    const auto file = makeGroup({leaf, paged, terrainLeaf});
     const std::vector<FoundTile> tiles = findTiles(*file, frameBelowATile());
     EXPECT_EQ(nodesOf(tiles), (std::vector<osg::Node*>{leaf, paged, terrainLeaf}));
     EXPECT_EQ(tiles[1].meshes.front(), paged->getChild(0));
@@ -46,28 +39,15 @@ TEST(TileFinder, FindsPagedMeshesAndTheLeavesBesideThem) {
     EXPECT_EQ(tiles[1].frame.file, "a/b.osgb");
     EXPECT_EQ(tiles[2].ordinal, 2u);
     EXPECT_EQ(terrainLeaf->getTerrain(), nullptr);
-}
-
-TEST(TileFinder, OutsideOfPagedFilesAMeshIsNoTile) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->addChild(makeLeaf());
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "c.osgb");
-    root->addChild(paged);
-    EXPECT_EQ(nodesOf(findTiles(*root)), std::vector<osg::Node*>{paged});
+    // outside of paged files a mesh is none
+    EXPECT_EQ(nodesOf(findTiles(*makeGlobe({makeLeaf(), paged}))), std::vector<osg::Node*>{paged});
 }
 
 TEST(TileFinder, CountsEachFilesTilesForItself) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "sub/c.osgb");
-    const osg::ref_ptr<osg::Group> loaded = new osg::Group;
-    const osg::ref_ptr<osg::PagedLOD> inner = makePaged(makeLeaf(), "d.osgb");
-    loaded->addChild(makeLeaf());
-    loaded->addChild(inner);
-    paged->addChild(loaded);
-    root->addChild(paged);
-    const osg::ref_ptr<osg::PagedLOD> second = makePaged(makeLeaf(), "e.osgb");
-    root->addChild(second);
-    const std::vector<FoundTile> tiles = findTiles(*root);
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeLeaf(), "sub/c.osgb"),
+                                      inner = makePaged(makeLeaf(), "d.osgb"), second = makePaged(makeLeaf(), "e.osgb");
+    paged->addChild(makeGroup({makeLeaf(), inner}));
+    const std::vector<FoundTile> tiles = findTiles(*makeGlobe({paged, second}));
     ASSERT_EQ(tiles.size(), 4u);
     EXPECT_EQ(tiles[2].node, inner);
     EXPECT_EQ(tiles[2].frame.file, "sub/c.osgb");
@@ -79,15 +59,10 @@ TEST(TileFinder, CountsEachFilesTilesForItself) {
 }
 
 TEST(TileFinder, WhatMayMoveIsNoTile) {
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    const osg::ref_ptr<osg::MatrixTransform> moving = makeLeaf();
+    const osg::ref_ptr<osg::MatrixTransform> moving = makeLeaf(), animated = makeLeaf();
     moving->setDataVariance(osg::Object::DYNAMIC);
-    const osg::ref_ptr<osg::MatrixTransform> animated = makeLeaf();
     animated->getChild(0)->asGroup()->getChild(0)->setUpdateCallback(new osg::NodeCallback);
-    file->addChild(moving);
-    file->addChild(animated);
-    file->addChild(makePaged(moving, "c.osgb"));
-    file->addChild(new osg::MatrixTransform);
+    const auto file = makeGroup({moving, animated, makePaged(moving, "c.osgb"), new osg::MatrixTransform});
     EXPECT_TRUE(findTiles(*file, frameBelowATile()).empty());
 }
 
@@ -106,9 +81,8 @@ TEST(TileFinder, ATerrainWithoutEllipsoidIsOnWgs84AndAMapIsNoGlobe) {
 TEST(TileFinder, BelowAGlobeWithoutRightRadiiIsNoTile) {
     for (const double radius : {std::nan(""), std::numeric_limits<double>::infinity(), 0.0, -6.4e6}) {
         for (const bool isPolar : {false, true}) {
-            const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-            globe->setEllipsoidModel(new osg::EllipsoidModel(isPolar ? 6.4e6 : radius, isPolar ? radius : 6.4e6));
-            globe->addChild(makePaged(new osgTerrain::TerrainTile, "c.osgb"));
+            const auto globe = makeGlobe({makePaged(new osgTerrain::TerrainTile, "c.osgb")}, isPolar ? 6.4e6 : radius,
+                                         isPolar ? radius : 6.4e6);
             EXPECT_FALSE(hasValidRadii(*globe->getEllipsoidModel()));
             EXPECT_TRUE(findTiles(*globe).empty()) << radius;
         }

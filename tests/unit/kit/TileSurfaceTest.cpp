@@ -16,10 +16,6 @@ osg::ref_ptr<osgTerrain::TerrainTile> randomTile(const TileCase& c, Random& rand
     });
 }
 
-osg::HeightField& heightsOf(osgTerrain::TerrainTile& tile) {
-    return *static_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer())->getHeightField();
-}
-
 osg::ref_ptr<osgTerrain::TerrainTile> makePlainTile() {
     return makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
                            [](unsigned int, unsigned int) { return 100.0f; });
