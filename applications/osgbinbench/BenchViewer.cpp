@@ -87,10 +87,6 @@ BenchViewer::BenchViewer(int width, int height, osgViewer::ViewerBase::Threading
     _viewer.setQuitEventSetsDone(false);
 }
 
-BenchViewer::~BenchViewer() {
-    rest();
-}
-
 void BenchViewer::show(osg::Node& root, osg::CullSettings::CullingMode culling) {
     rest();
     _viewer.getCamera()->setCullingMode(culling);

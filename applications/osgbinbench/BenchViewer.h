@@ -32,7 +32,7 @@ class BenchViewer {
 public:
     /// Throws: Failure when there is no display, or none that OpenGL can draw on.
     BenchViewer(int width, int height, osgViewer::ViewerBase::ThreadingModel threading);
-    ~BenchViewer();
+    ~BenchViewer() { rest(); }
 
     BenchViewer(const BenchViewer&) = delete;
     BenchViewer& operator=(const BenchViewer&) = delete;

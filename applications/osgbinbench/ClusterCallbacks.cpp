@@ -3,7 +3,6 @@
 
 #include "ClusterCallbacks.h"
 
-#include "Angles.h"
 #include "GlmBridge.h"
 #include "Nodes.h"
 
@@ -12,6 +11,7 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/vec2.hpp>
 #include <osg/ClusterCullingCallback>
 #include <osg/Geometry>
@@ -29,9 +29,8 @@ namespace osgAnalyticBin::bench {
 namespace {
 
 using support::forAllNodes;
-using support::kPi;
 // Tiles that reach farther from their middle than this get no callback; VirtualPlanetBuilder's number.
-constexpr double kFarthestAngle = 0.5 * kPi - 0.1;
+constexpr double kFarthestAngle = glm::half_pi<double>() - 0.1;
 
 osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
     return support::findCallback<osg::ClusterCullingCallback>(node.getCullCallback());
@@ -53,8 +52,8 @@ core::Geodetic middleOf(const std::vector<Vertex>& vertices) {
     core::Interval latitude = core::Interval::none(), longitude = latitude;
     for (const Vertex& v : vertices) {
         latitude.expandBy(v.position.latitude);
-        if (std::abs(v.position.latitude) < 0.5 * kPi - kAtPole)
-            longitude.expandBy(std::remainder(v.position.longitude - about, 2.0 * kPi));
+        if (std::abs(v.position.latitude) < glm::half_pi<double>() - kAtPole)
+            longitude.expandBy(std::remainder(v.position.longitude - about, glm::two_pi<double>()));
     }
     return {latitude.middle(), about + longitude.middle(), 0.0};
 }

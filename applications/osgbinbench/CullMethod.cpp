@@ -6,6 +6,7 @@
 #include "Failure.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -32,14 +33,6 @@ bool isPeer(const std::string& name) {
     return kPeerBases.count(name.substr(0, name.find('+'))) != 0;
 }
 
-// Takes a suffix off the end of a name. Returns: whether it was there.
-bool takeSuffix(std::string& name, const std::string& suffix) {
-    if (name.size() < suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
-        return false;
-    name.resize(name.size() - suffix.size());
-    return true;
-}
-
 CullMethod stockMethod(const std::string& name) {
     CullMethod method;
     method.cullsNothing = name == kReferenceMethod;
@@ -51,10 +44,10 @@ CullMethod stockMethod(const std::string& name) {
 }
 
 CullMethod binMethod(const std::string& name) {
-    std::string base = name;
-    const bool usesOcclusion = takeSuffix(base, "+occlusion");
-    const bool usesEdges = takeSuffix(base, "+edges");
-    const bool usesHorizon = takeSuffix(base, "+horizon");
+    std::smatch part;
+    (void)std::regex_match(name, part, std::regex("([a-z]+)(\\+horizon)?(\\+edges)?(\\+occlusion)?"));
+    const std::string base = part.str(1);
+    const bool usesHorizon = part[2].matched, usesEdges = part[3].matched, usesOcclusion = part[4].matched;
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool isBin = base == "quadratic" || base == "exact";
     if (!(isBin ? usesHorizon || !usesOcclusion : isPeer(base) && !usesOcclusion))

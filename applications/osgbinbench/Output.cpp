@@ -34,18 +34,17 @@ constexpr std::array<const char*, 12> kByPath{"truth_tiles",     "drawn_tiles", 
                                               kCullColumn,       kCullColdColumn, "over_oracle", "cold_over_oracle"};
 
 Json headOf(const Settings& settings, const char* mode) {
-    Json json;
-    json["mode"] = mode;
-    json["database"] = settings.database;
-    json["path"] = settings.paths;
-    json["options"] = settings.binOptions;
-    json["vertical_scale"] = settings.verticalScale;
-    json["width"] = settings.width;
-    json["height"] = settings.height;
-    json["threading"] = flight::threadingName(settings.threading);
-    json["flush_mib"] = settings.flush;
-    json["expiry"] = settings.expiry;
-    json["osg"] = osgGetVersion();
+    Json json{{"mode", mode},
+              {"database", settings.database},
+              {"path", settings.paths},
+              {"options", settings.binOptions},
+              {"vertical_scale", settings.verticalScale},
+              {"width", settings.width},
+              {"height", settings.height},
+              {"threading", flight::threadingName(settings.threading)},
+              {"flush_mib", settings.flush},
+              {"expiry", settings.expiry},
+              {"osg", osgGetVersion()}};
     if (support::stopRequested) json["interrupted"] = true;
     return json;
 }
@@ -260,33 +259,25 @@ constexpr const char* kTiles = "drawn_tiles";
 /// Bins against the better of two methods, over some poses.
 class Judge {
 public:
-    explicit Judge(const std::vector<MethodFigures>& methods)
-        : _bins(methodNamed(methods, kDefaultMethod)),
-          _spheres(methodNamed(methods, "sphere")),
-          _clusters(methodNamed(methods, "cluster")) {}
+    explicit Judge(const std::vector<MethodFigures>& methods) : _bins(methodNamed(methods, kDefaultMethod)) {
+        for (const auto& [method, name] : {std::pair("sphere", "spheres"), {"cluster", "cluster callbacks"}})
+            if (const MethodFigures* const other = methodNamed(methods, method)) _others.emplace_back(other, name);
+    }
 
-    [[nodiscard]] bool isPossible() const { return _bins && (_spheres || _clusters); }
+    [[nodiscard]] bool isPossible() const { return _bins && !_others.empty(); }
 
     [[nodiscard]] Comparison compare(const char* column, const PathGroup& poses) const {
         const auto value = [&](const MethodFigures& method) { return sumOf(method, poses)[column].get<double>(); };
         Comparison better{value(*_bins), 0.0, {}};
-        const auto consider = [&](const MethodFigures* method, const char* name) {
-            if (!method) return;
-            const double other = value(*method);
-            if (better.name.empty() || other < better.other) {
-                better.other = other;
-                better.name = name;
-            }
-        };
-        consider(_spheres, "spheres");
-        consider(_clusters, "cluster callbacks");
+        for (const auto& [method, name] : _others)
+            if (const double other = value(*method); better.name.empty() || other < better.other)
+                better = {better.bins, other, name};
         return better;
     }
 
 private:
     const MethodFigures* _bins;
-    const MethodFigures* _spheres;
-    const MethodFigures* _clusters;
+    std::vector<std::pair<const MethodFigures*, const char*>> _others;
 };
 
 std::string times(const Comparison& comparison) {

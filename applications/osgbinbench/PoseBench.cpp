@@ -7,6 +7,7 @@
 #include "Failure.h"
 #include "MethodScene.h"
 #include "ProgressLine.h"
+#include "TextFile.h"
 #include "TileTruth.h"
 
 #include <osg/ClearNode>
@@ -234,9 +235,8 @@ private:
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const {
         const std::filesystem::path folder = std::filesystem::path(_settings.pictures) / method;
         const std::string file = (folder / (pose + ".png")).string();
-        std::error_code problem;
-        std::filesystem::create_directories(folder, problem);
-        if (problem || !osgDB::writeImageFile(picture, file)) throw Failure(file + ": the picture cannot be saved");
+        support::makeFolder(folder.string());
+        if (!osgDB::writeImageFile(picture, file)) throw Failure(file + ": the picture cannot be saved");
     }
 
     const Settings& _settings;

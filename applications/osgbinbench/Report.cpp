@@ -130,9 +130,9 @@ support::ExitCode runReport(int argc, char** argv) {
                  "osgbinbench report"};
     app.footer(kFooter);
     std::vector<std::string> folders;
-    app.add_option("DIR", folders, "Folders that flights left (poses.csv and pictures); the first is the reference");
+    app.add_option("DIR", folders, "Folders that flights left (poses.csv and pictures); the first is the reference")
+        ->required();
     if (!support::parseCommandLine(app, argc, argv)) return support::kSucceeded;
-    if (folders.empty()) throw support::UsageError("DIR is required; see osgbinbench report --help");
     const Measurement flown = readFlights(folders);
     print(std::cout, tablesOf(flown));
     const std::vector<std::string> mismatches = mismatchesOf(flown);

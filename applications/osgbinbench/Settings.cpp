@@ -51,18 +51,9 @@ long lastLevelKibibytes() {
     return kibibytes > 0 ? kibibytes : sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024;
 }
 
-template <class Columns>
-std::string linesOf(const Columns& columns) {
-    std::string text;
-    for (const auto& column : columns) {
-        std::string name = std::string("  ") + column.name;
-        name.resize(23, ' ');
-        text += name + column.meaning + "\n";
-    }
-    return text;
-}
-
 std::string footer() {
+    using report::linesOf;
+    constexpr std::size_t kWidth = 23;
     const std::string text =
         "Without --path: flies around the database (overview, oblique, low, turning), says in three sentences whether\n"
         "bins are worth it, and writes report.html. Ctrl-C ends with what was measured until then.\n\n"
@@ -88,8 +79,9 @@ std::string footer() {
         "camera stands still at each pose instead. Methods take turns of 50 frames each; these are culled, and not\n"
         "drawn. What leaves the view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
-    return text + linesOf(kPoseColumns) + "\nThe same with --frames and --jumps:\n" + linesOf(kFlightColumns) +
-           "\nThe same with --draw, over three flights of each method but none:\n" + linesOf(kDrawnColumns) +
+    return text + linesOf(kPoseColumns, kWidth) + "\nThe same with --frames and --jumps:\n" +
+           linesOf(kFlightColumns, kWidth) + "\nThe same with --draw, over three flights of each method but none:\n" +
+           linesOf(kDrawnColumns, kWidth) +
            "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _.\n\n"
            "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written; 2 "
@@ -106,16 +98,15 @@ struct Words {
 };
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
-    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
+    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads")->required();
     app.add_option(
            "--path", settings.paths,
            "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
            "in place of degrees; or *.path, as key z\nof OpenSceneGraph's viewers records it; may be given several "
            "times\n(default: around the database)")
         ->allow_extra_args(false);
-    app.add_option("--methods", settings.methods, "comma-separated, see below, or all (default:\nsphere,cluster,bins)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    support::addList(app, "--methods", settings.methods,
+                     "comma-separated, see below, or all (default:\nsphere,cluster,bins)");
     app.add_option("--options", settings.binOptions,
                    "more options for the bins, comma-separated, such as heights=0..4000\n"
                    "or horizon=-500 (metres; for the methods with +horizon); what the\nname of a method says stays");
@@ -168,7 +159,6 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
 }
 
 void check(const Settings& settings) {
-    if (settings.database.empty()) throw UsageError("DATABASE is required; see osgbinbench --help");
     if (std::filesystem::path(settings.database).extension().empty() && !std::filesystem::exists(settings.database))
         throw UsageError("there is no database and no command \"" + settings.database +
                          "\"; the commands are report and scale, and databases have names like earth.osgb");

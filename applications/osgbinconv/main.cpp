@@ -14,7 +14,6 @@
 #include <pthread.h>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace {
 
@@ -40,34 +39,23 @@ struct Arguments {
     bool isPrint = false;
     bool isCheck = false;
     bool keepsRecords = false;
-    std::vector<std::string> files;
+    std::string file;
     osgbinconv::WalkOptions walk;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
-    app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
+    auto* index = app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
     app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins");
     app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
     app.add_flag(
-        "--keep-records", arguments.keepsRecords,
-        "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
-        "since");
-    app.add_option("FILE", arguments.files, "the root file of a database; with --print also an index");
+           "--keep-records", arguments.keepsRecords,
+           "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have changed "
+           "since")
+        ->needs(index);
+    app.add_option("FILE", arguments.file, "the root file of a database; with --print also an index")->required();
     app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)")
         ->check(CLI::Range(1, 256));
     app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
-}
-
-void requireSense(const Arguments& arguments) {
-    const int commands = arguments.isIndex + arguments.isPrint + arguments.isCheck;
-    if (arguments.files.empty()) throw UsageError("FILE is required; see osgbinconv --help");
-    if (commands > 1) throw UsageError("--index, --print and --check exclude each other; see osgbinconv --help");
-    if (arguments.keepsRecords && !arguments.isIndex) throw UsageError("--keep-records: is for --index");
-    if (commands == 0)
-        throw UsageError("nothing to do with \"" + arguments.files.front() + "\"; give --index, --print or --check");
-    if (arguments.files.size() > 1)
-        throw UsageError("one file too many on the command line, \"" + arguments.files[1] +
-                         "\"; see osgbinconv --help");
 }
 
 void prepareProcess() {
@@ -85,9 +73,10 @@ ExitCode run(int argc, char** argv) {
     app.footer(kExamples);
     declare(app, arguments);
     if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return kSucceeded;
-    requireSense(arguments);
+    if (arguments.isIndex + arguments.isPrint + arguments.isCheck != 1)
+        throw UsageError("what to do with \"" + arguments.file + "\"? Give one of --index, --print and --check");
     prepareProcess();
-    const std::string& file = arguments.files.front();
+    const std::string& file = arguments.file;
     if (arguments.isPrint) {
         osgbinconv::printIndex(file);
         return kSucceeded;

@@ -4,6 +4,7 @@
 #include "DatabaseBuilder.h"
 #include "ImageMosaic.h"
 #include "RasterLayer.h"
+#include "SkirtMeasure.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -157,6 +158,38 @@ std::optional<ChangedArea> changedBetween(const std::string& before, const std::
     ChangedArea area;
     for (const char* kind : {kElevation, kImage}) addChanges(old.rasters[kind], current.rasters[kind], area);
     return area;
+}
+
+std::size_t takeOverUnchanged(const Settings& settings, const TileLayout& layout, const std::vector<Task>& plan,
+                              const ChangedArea& area, const DatabaseFolder& folder) {
+    DemMosaic mosaic(settings, &layout);
+    SkirtMeasure tiles(mosaic, layout);
+    const auto isRefinedOtherwiseAbove = [&](const TileId& neighbour) {
+        for (int level = layout.startLevel(); level < neighbour.level; ++level) {
+            const TileId above = neighbour.ancestor(level);
+            const bool hasChildren = tiles.hasChildren(above);
+            if (touches(area, above.rect()) && hasChildren != folder.standingFiles().hasChildren(above)) return true;
+            if (!hasChildren) return false;
+        }
+        return false;
+    };
+    // Whether the tile, or one below it, may come out otherwise. A mesh depends on heights within one spacing of posts
+    // around it, or on those between the posts of a coarser neighbour along the edge; its skirts depend besides on
+    // which of its neighbours, of those above them, and of those below them along the edge have children. The bin
+    // depends on the tiles below.
+    const auto hasChanged = [&](const TileId& tile) {
+        int coarsest = std::max(tile.level - 1, layout.startLevel());  // skirts reach down to the parent's level
+        for (const Edge edge : kEdges) coarsest = std::min(coarsest, tiles.coarsestAcross(tile, edge));
+        if (touches(area, tile.rect().grownBy(layout.spacingDeg(coarsest)))) return true;
+        return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
+            const auto neighbour = tile.neighbour(edge);
+            return neighbour && (touches(area, neighbour->rect()) || isRefinedOtherwiseAbove(*neighbour));
+        });
+    };
+    const auto count = std::count_if(plan.begin(), plan.end(), [&](const Task& task) {
+        return !hasChanged(task.tile) && folder.takeOver(task.tile);
+    });
+    return static_cast<std::size_t>(count);
 }
 
 }  // namespace osgbindem

@@ -119,15 +119,12 @@ TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
 }
 
 /// The same, once every raster is known to have heights; the rasters are closed again. Says what the user should know
-/// of them, unless that is quiet. Throws Failure.
+/// of them. Throws Failure.
 TileLayout checkedLayoutFor(const Settings& settings) {
     DemMosaic mosaic(settings);
-    for (const std::string& line : mosaic.inspect()) {
-        if (!settings.quiet) std::cout << line << std::endl;
-    }
-    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
+    for (const std::string& line : mosaic.inspect()) std::cout << line << std::endl;
+    if (settings.region && !(mosaic.posts(*settings.region) > 0.0))
         throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
-    }
     return layoutFor(settings, mosaic);
 }
 
@@ -176,19 +173,15 @@ std::vector<BuiltTile> buildStarts(const Site& site, const std::vector<Task>& pl
 }
 
 /// Says what an earlier run has left, and makes the state one of this database.
-void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder) {
-    const bool isSame = folder.isStateOf(sources);
+void beginOrGoOn(const std::string& sources, std::size_t parts, DatabaseFolder& folder) {
     const std::size_t done = folder.doneCount();
-    if (isSame) {
-        if (done > 0 && !settings.quiet) {
-            std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
-        }
+    if (folder.isStateOf(sources)) {
+        if (done > 0) std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
         return;
     }
-    if (done > 0 && !settings.quiet) {
+    if (done > 0)
         std::cout << "starts again: \"" << folder.partial() << "\" was built from other settings or rasters"
                   << std::endl;
-    }
     folder.clear();
     folder.beginState(sources);
 }
@@ -231,15 +224,13 @@ std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
 /// What has changed since the finished database was built. Throws Failure when it cannot be brought up to date.
 ChangedArea changesSince(const DatabaseFolder& folder, const std::string& sources, const std::string& name) {
     const std::string before = folder.standingSources();
-    if (before.empty()) {
+    if (before.empty())
         throw Failure("nobody knows what \"" + name + "\" was built from; build it anew, with --overwrite");
-    }
     const auto area = changedBetween(before, sources);
-    if (!area) {
+    if (!area)
         throw Failure("\"" + name +
                       "\" was built with other settings or by another version; give the same, or build it anew, with "
                       "--overwrite");
-    }
     return *area;
 }
 
@@ -256,15 +247,14 @@ void buildWith(const Settings& given, const Ranks& ranks) {
     const bool isUpdate = settings.update && folder.isComplete();
     const ChangedArea area = isUpdate ? changesSince(folder, sources, settings.output) : ChangedArea();
     if (isUpdate && area.empty()) {
-        if (!settings.quiet) std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
+        std::cout << "nothing has changed in \"" << settings.output << "\"" << std::endl;
         ranks.meet(false, throwIfStopRequested);
         return;
     }
-    beginOrGoOn(settings, sources, plan.size(), folder);
+    beginOrGoOn(sources, plan.size(), folder);
     if (isUpdate) {
         const std::size_t unchanged = takeOverUnchanged(settings, layout, plan, area, folder);
-        if (!settings.quiet)
-            std::cout << "updates: " << unchanged << " of " << plan.size() << " parts stay" << std::endl;
+        std::cout << "updates: " << unchanged << " of " << plan.size() << " parts stay" << std::endl;
     }
     ranks.meet(true, throwIfStopRequested);  // the folder is ready
     try {

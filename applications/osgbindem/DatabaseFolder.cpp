@@ -35,9 +35,8 @@ constexpr int kLevelsPerFolder = 5;
 /// The folder, below that of all tiles, with the file of a tile's children.
 std::string folderOf(const TileId& tile) {
     std::string folder = startName(tile);
-    for (int level = kLevelsPerFolder; level <= tile.level; level += kLevelsPerFolder) {
+    for (int level = kLevelsPerFolder; level <= tile.level; level += kLevelsPerFolder)
         folder += "/" + tileName(tile.ancestor(level));
-    }
     return folder;
 }
 
@@ -132,12 +131,10 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile)
     const fs::path path(rootFile);
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code error;
-    if (!fs::is_directory(folder, error)) {
+    if (!fs::is_directory(folder, error))
         throw Failure("no folder \"" + folder + "\" for the database; create it first");
-    }
-    if (fs::is_directory(path, error)) {
+    if (fs::is_directory(path, error))
         throw Failure("the output \"" + rootFile + "\" is a folder; name a file that ends in .osgb");
-    }
     for (const std::string& replaced : {_tiles, _partial, _old}) requireOwnFolder(replaced);
 }
 
@@ -155,9 +152,8 @@ void DatabaseFolder::requireOwnFolder(const std::string& folder) const {
     if (!fs::exists(folder, error)) return;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename().string();
-        if (!isStartName(name) && name != kState) {
+        if (!isStartName(name) && name != kState)
             throw Failure("\"" + folder + "\" has files that are no tiles; move it away or choose another name");
-        }
     }
     if (error) throw Failure("cannot look into \"" + folder + "\": " + error.message() + "; choose another name");
 }

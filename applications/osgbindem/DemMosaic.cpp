@@ -41,9 +41,8 @@ public:
             _what = isFile ? "the geoid \"" + geoid + "\"" : "the geoid EGM96";
             const std::string grid = isFile ? std::filesystem::absolute(geoid).string() : "egm96_15.gtx";
             const std::string text = "+proj=longlat +datum=WGS84 +geoidgrids=" + grid + " +vunits=m +no_defs";
-            if (source.importFromProj4(text.c_str()) != OGRERR_NONE) {
+            if (source.importFromProj4(text.c_str()) != OGRERR_NONE)
                 throw Failure("PROJ does not take \"" + grid + "\" for a grid of the geoid; see --geoid");
-            }
         }
         OGRSpatialReference target;
         target.importFromEPSG(4979);
@@ -66,10 +65,9 @@ public:
         double x = std::remainder(position.longitudeDeg, 360.0);
         double y = std::clamp(position.latitudeDeg, -90.0, 90.0);
         double z = 0.0;
-        if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z)) {
+        if (_transformation->Transform(1, &x, &y, &z) == 0 || !std::isfinite(z))
             throw Failure("PROJ finds no height of " + _what + " at latitude " + std::to_string(position.latitudeDeg) +
                           ", longitude " + std::to_string(position.longitudeDeg) + kAdvice);
-        }
         return z;
     }
 
@@ -398,9 +396,8 @@ double DemMosaic::finestDeg() const noexcept {
 }
 
 double DemMosaic::finestGlobalDeg() const noexcept {
-    for (const auto& source : _sources) {
+    for (const auto& source : _sources)
         if (source->grid().isGlobal()) return source->grid().resolutionDeg();
-    }
     return finestDeg();
 }
 

@@ -54,9 +54,8 @@ private:
 
 extern "C" __attribute__((visibility("default"))) Ranks* osgbindemJoinRanks() {
     int level = 0;
-    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS || level < MPI_THREAD_FUNNELED) {
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS || level < MPI_THREAD_FUNNELED)
         return nullptr;
-    }
     return new MpiRanks;
 }
 

@@ -61,10 +61,9 @@ protected:
                      GDALDataType type, GSpacing pixelSpace, GSpacing lineSpace, GDALRasterIOExtraArg* extra) override {
         const bool isNearest = extra == nullptr || extra->eResampleAlg == GRIORA_NearestNeighbour;
         const bool isDense = type == GDT_Float64 && pixelSpace == static_cast<GSpacing>(sizeof(double));
-        if (flag != GF_Read || !isNearest || !isDense) {
+        if (flag != GF_Read || !isNearest || !isDense)
             return GDALRasterBand::IRasterIO(flag, x, y, width, height, data, columns, rows, type, pixelSpace,
                                              lineSpace, extra);
-        }
         CPLErr error = _numbers.RasterIO(GF_Read, x, y, width, height, data, columns, rows, GDT_Float64, pixelSpace,
                                          lineSpace, nullptr);
         const auto at = [&](int row) { return reinterpret_cast<double*>(static_cast<char*>(data) + row * lineSpace); };
@@ -151,10 +150,9 @@ GDALRasterBand& heightBandOf(GDALDataset& file, const Settings& settings, const 
                              std::vector<GDALRasterBand*>& masks, std::vector<std::string>& notes) {
     const int count = file.GetRasterCount();
     const int number = settings.band.value_or(1);
-    if (number > count) {
+    if (number > count)
         throw Failure("no band " + std::to_string(number) + " in \"" + path + "\", which has " + std::to_string(count) +
                       "; see --band");
-    }
     GDALRasterBand& band = *file.GetRasterBand(number);
     bool isAlone = true;
     for (GDALRasterBand* other : file.GetBands()) {
@@ -197,9 +195,8 @@ double brightest(GDALDataset& file, const std::vector<int>& bands, const std::st
         if (band.ComputeRasterMinMax(TRUE, range.data()) == CE_None) highest = std::max(highest, range[1]);
     }
     const bool isWhole = GDALDataTypeIsInteger(file.GetRasterBand(bands.front())->GetRasterDataType()) != 0;
-    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
+    for (const double end : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0})
         if (highest <= end && (end > 1.0 || !isWhole)) return end;
-    }
     throw Failure("colours of \"" + path + "\" reach " + std::string(CPLSPrintf("%.9g", highest)) +
                   "; bring them to bytes, for example with gdal_translate -ot Byte -scale");
 }
@@ -215,22 +212,19 @@ GdalDataset heightsOf(GDALDataset& file, const Settings& settings, const DemInpu
     if (hasNodata != 0) code.nodata = nodata;
     if (settings.nodata) code.nodata = settings.nodata;
     const auto declared = declaredMetresPerUnit(band, referenceOf(file));
-    if (!declared && !input.metresPerUnit) {
+    if (!declared && !input.metresPerUnit)
         throw Failure("heights of \"" + input.path + "\" are in \"" + band.GetUnitType() +
                       "\", which is no length that is known; give --height-unit");
-    }
     const double metres = input.metresPerUnit.value_or(declared.value_or(1.0));
-    if (!input.metresPerUnit && metres != 1.0) {
+    if (!input.metresPerUnit && metres != 1.0)
         notes.push_back("the unit that it declares is " + std::string(CPLSPrintf("%.9g", metres)) + " m");
-    }
     code.scale = band.GetScale() * metres;
     code.offset = band.GetOffset() * metres;
-    if (code.offset > 0.5 * horizontal.GetSemiMajor()) {
+    if (code.offset > 0.5 * horizontal.GetSemiMajor())
         throw Failure("heights of \"" + input.path +
                       "\" are distances from the middle of the body, with an offset of " +
                       std::string(CPLSPrintf("%.9g", code.offset)) +
                       " m; take it away with gdal_edit.py -offset 0, and see --radii");
-    }
     // A user's factor may exaggerate heights.
     const double most = settings.isWgs84 ? kHighestOnEarth : kHighest;
     code.highest = most * std::max(1.0, std::abs(input.metresPerUnit.value_or(1.0)));
@@ -246,10 +240,9 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
             });
     };
     const GDALColorInterp meaning = file.GetRasterBand(1)->GetColorInterpretation();
-    if (meaning >= GCI_HueBand) {
+    if (meaning >= GCI_HueBand)
         throw Failure("bands of \"" + path + "\" are " + GDALGetColorInterpretationName(meaning) +
                       " and others; give an image of red, green and blue");
-    }
     GDALDataset* source = &file;
     if (file.GetRasterBand(1)->GetColorTable() != nullptr) source = translated(file, "-ot Byte -expand rgba").release();
     std::vector<int> bands = colourBands(*source);
@@ -275,9 +268,8 @@ GdalDataset coloursOf(GDALDataset& file, const std::string& path) {
     }
     for (const int band : bands) colours += CPLSPrintf(" -b %d", band);
     colours += CPLSPrintf(alpha > 0 ? " -b %d" : " -b mask,%d", alpha > 0 ? alpha : bands.front());
-    if (alpha > 0 && source->GetRasterBand(alpha)->GetRasterDataType() == GDT_UInt16) {
+    if (alpha > 0 && source->GetRasterBand(alpha)->GetRasterDataType() == GDT_UInt16)
         colours += " -scale_4 0 65535 0 255";
-    }
     GdalDataset result = translated(*source, colours);
     if (source != &file) source->ReleaseRef();  // the result has a reference of its own
     return result;

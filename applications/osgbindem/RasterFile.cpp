@@ -62,9 +62,8 @@ GdalDataset opened(const std::string& path, int overview = -1) {
             mayExist(path) ? gdalMessage() + "; give a raster file" : "no such file; check the name";
         throw Failure("cannot open \"" + path + "\": " + reason);
     }
-    if (dataset->GetRasterCount() == 0) {
+    if (dataset->GetRasterCount() == 0)
         throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
-    }
     if (isRowsOfText(*dataset)) requireAllRows(*dataset, path);
     return dataset;
 }
@@ -179,9 +178,8 @@ void RasterFile::takeTransform() {
         throw Failure("no georeferencing in \"" + input.path +
                       "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
     }
-    if (!isPlausible(t, *file)) {
+    if (!isPlausible(t, *file))
         throw Failure("the coordinates of \"" + input.path + "\" are far from any globe; correct its georeferencing");
-    }
     if (file->GetSpatialRef() == nullptr &&
         !(isUnturned && looksLikeDegrees(t, file->GetRasterXSize(), file->GetRasterYSize()))) {
         throw Failure("no reference system in \"" + input.path +
@@ -198,10 +196,9 @@ void RasterFile::takeReference(bool isWgs84) {
     horizontal.StripVertical();
     horizontal.DemoteTo2D(nullptr);
     horizontal.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (reference->IsLocal() != 0) {
+    if (reference->IsLocal() != 0)
         throw Failure("the reference system of \"" + input.path +
                       "\" is local; give one that has a place on the globe");
-    }
     if (!isWgs84) {
         target.SetGeogCS("globe", "globe", "globe", reference->GetSemiMajor(), reference->GetInvFlattening());
         target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -257,17 +254,14 @@ void RasterFile::place() {
         placeWarped();
     }
     constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
-    if (!(eastDeg >= kFinestDeg && northDeg >= kFinestDeg)) {
+    if (!(eastDeg >= kFinestDeg && northDeg >= kFinestDeg))
         throw Failure("the pixels of \"" + input.path + "\" have no size on a globe; correct its georeferencing");
-    }
     constexpr double kMostTurns = 2.0;
-    if (extent.east - extent.west > kMostTurns * 360.0 || eastDeg > 360.0 || northDeg > 180.0) {
+    if (extent.east - extent.west > kMostTurns * 360.0 || eastDeg > 360.0 || northDeg > 180.0)
         throw Failure("\"" + input.path + "\" or one of its pixels is larger than a globe; correct its georeferencing");
-    }
-    if (!(extent.south < 90.0 && extent.north > -90.0)) {
+    if (!(extent.south < 90.0 && extent.north > -90.0))
         throw Failure("no part of \"" + input.path +
                       "\" lies between latitudes -90 and 90; correct its georeferencing");
-    }
 }
 
 void RasterFile::placeWarped() {
@@ -344,10 +338,8 @@ Settings withDeclaredRadii(Settings settings) {
     if (reference == nullptr || reference->IsLocal() != 0 || isOfEarth(*reference)) return settings;
     settings.ellipsoid = {reference->GetSemiMajor(), reference->GetSemiMinor()};
     settings.isWgs84 = false;
-    if (!settings.quiet) {
-        std::cout << "the globe has the radii of \"" << path << "\", " << settings.ellipsoid.equatorialRadius()
-                  << " and " << settings.ellipsoid.polarRadius() << " m; see --radii" << std::endl;
-    }
+    std::cout << "the globe has the radii of \"" << path << "\", " << settings.ellipsoid.equatorialRadius() << " and "
+              << settings.ellipsoid.polarRadius() << " m; see --radii" << std::endl;
     return settings;
 }
 

@@ -3,9 +3,8 @@
 
 #include "RasterLayer.h"
 
-#include "Angles.h"
-
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,6 @@
 #include <utility>
 
 namespace osgbindem {
-
-using osgAnalyticBin::support::kRadiansPerDegree;
 
 namespace {
 
@@ -44,9 +41,8 @@ struct Frame {
 
 GdalDataset warped(const RasterFile& file, const Frame& frame) {
     constexpr double kMost = std::numeric_limits<int>::max();
-    if (!(frame.columns >= 1.0 && frame.rows >= 1.0 && frame.columns < kMost && frame.rows < kMost)) {
+    if (!(frame.columns >= 1.0 && frame.rows >= 1.0 && frame.columns < kMost && frame.rows < kMost))
         throw Failure("\"" + file.input.path + "\" is too wide for its spacing; give a part of it, see gdal_translate");
-    }
     // Each post is transformed by itself: what is between others would depend on how the raster is divided. Its height
     // is that of its place (XSCALE, YSCALE), not the mean around it where the map's pixels are smaller.
     const GeoTransform& t = frame.transform;
@@ -67,7 +63,7 @@ GdalDataset warped(const RasterFile& file, const Frame& frame) {
 constexpr double kEquallyFine = 1.01;
 
 double cosine(double latitudeDeg) {
-    return std::cos(latitudeDeg * kRadiansPerDegree);
+    return std::cos(glm::radians(latitudeDeg));
 }
 
 bool isCoarser(const RasterGrid& grid, const RasterGrid& than) {
@@ -79,9 +75,8 @@ double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, 
     constexpr double kLargestPart = 1.0 / 8.0;
     const RectDeg extent = grid.extent();
     double spacing = std::numeric_limits<double>::infinity();
-    for (const RasterGrid& other : all) {
+    for (const RasterGrid& other : all)
         if (isCoarser(other, grid) && other.overlap(extent) > 0.0) spacing = std::min(spacing, other.resolutionDeg());
-    }
     if (!std::isfinite(spacing)) return 0.0;
     const double middle = 0.5 * (extent.south + extent.north);
     const double side = std::min(extent.north - extent.south, (extent.east - extent.west) * cosine(middle));
@@ -92,7 +87,7 @@ double defaultWidth(const RasterGrid& grid, const std::vector<RasterGrid>& all, 
 
 BlendBand::BlendBand(const RasterGrid& grid, const std::vector<RasterGrid>& all, const std::optional<double>& width,
                      double radius)
-    : _metresPerDegree(radius * kRadiansPerDegree), _grid(grid) {
+    : _metresPerDegree(glm::radians(radius)), _grid(grid) {
     _width = width ? *width : defaultWidth(grid, all, _metresPerDegree);
     if (!(_width > 0.0)) return;
     const RectDeg extent = grid.extent();

@@ -41,10 +41,9 @@ constexpr const char* kExamples =
 /// `units`: metres per unit.
 std::vector<DemInput> demsOf(const std::vector<std::string>& rasters, const std::vector<double>& units) {
     if (rasters.empty()) throw UsageError("no elevation raster on the command line; name at least one");
-    if (units.size() > 1 && units.size() != rasters.size()) {
+    if (units.size() > 1 && units.size() != rasters.size())
         throw UsageError(std::to_string(units.size()) + " units in --height-unit for " +
                          std::to_string(rasters.size()) + " rasters; give one for all or one for each");
-    }
     std::vector<DemInput> dems;
     for (std::size_t i = 0; i < rasters.size(); ++i) {
         dems.push_back({rasters[i]});
@@ -54,12 +53,12 @@ std::vector<DemInput> demsOf(const std::vector<std::string>& rasters, const std:
 }
 
 void setRadii(Settings& settings, double a, double b) {
-    if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a)) {
+    if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a))
         throw UsageError("radii " + std::to_string(a) + " and " + std::to_string(b) +
                          " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
-    }
     const auto wgs84 = osgAnalyticBin::defaultEllipsoid();
     settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
+    settings.areRadiiGiven = true;
     settings.isWgs84 = a == wgs84.equatorialRadius() && b == wgs84.polarRadius();
 }
 
@@ -76,12 +75,10 @@ RectDeg regionOf(const std::vector<double>& edges) {
 }
 
 void requireFiles(const Settings& settings) {
-    if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid)) {
+    if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid))
         throw Failure("no file \"" + settings.geoid + "\" for --geoid; give none, egm96 or a grid");
-    }
-    if (std::filesystem::path(settings.output).extension() != ".osgb") {
+    if (std::filesystem::path(settings.output).extension() != ".osgb")
         throw UsageError("output \"" + settings.output + "\"; give a file name that ends in .osgb");
-    }
 }
 
 void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, std::vector<double>& units) {
@@ -122,11 +119,7 @@ void declare(CLI::App& app, Settings& settings, std::vector<std::string>& dems, 
                    "pixel counts, and the colours of the relief where none has")
         ->allow_extra_args(false);
     app.add_option_function<std::vector<double>>(
-           "--radii",
-           [&settings](const std::vector<double>& radii) {
-               setRadii(settings, radii[0], radii[1]);
-               settings.areRadiiGiven = true;
-           },
+           "--radii", [&settings](const std::vector<double>& radii) { setRadii(settings, radii[0], radii[1]); },
            "equatorial and polar radius in metres\n(default: those of the first raster where it is of another "
            "body than the earth, else WGS 84)")
         ->expected(2);

@@ -67,9 +67,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _triangles(osgAnalyticBin::trianglesOf(layout.cells())) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
-    if (_finished) {
-        if (auto found = _finished(tile)) return std::move(*found);
-    }
+    if (auto found = _finished ? _finished(tile) : std::nullopt) return std::move(*found);
     throwIfStopRequested();
     if (!_skirts.hasChildren(tile)) {
         SurveyedTile leaf = surveyLeaf(tile);
@@ -181,10 +179,9 @@ BuiltTile TileBuilder::build(const TileId& id) {
 void prepareNodeFiles() {
     osgAnalyticBin::addModuleFolder();
     for (const char* name : {"osg::Group", "osgAnalyticBin::InstallBinsCallback", "osgAnalyticBin::PackedTerrain"}) {
-        if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name) == nullptr) {
+        if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(name) == nullptr)
             throw Failure(std::string("OpenSceneGraph finds no serializer for ") + name +
                           "; install this library's modules or set OSG_LIBRARY_PATH");
-        }
     }
     (void)nodeFileBytes(*osg::ref_ptr<osg::Node>(new osg::Group), true);
 }

@@ -72,6 +72,7 @@ void prepareProcess(const Settings& settings) {
         if (CPLGetConfigOption(name, nullptr) == nullptr) CPLSetConfigOption(name, value);
     CPLSetErrorHandler(CPLQuietErrorHandler);
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
+    if (settings.quiet) std::cout.setstate(std::ios::failbit);
     osgAnalyticBin::support::stopOnSignals();
 }
 

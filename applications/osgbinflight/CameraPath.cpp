@@ -3,11 +3,11 @@
 
 #include "CameraPath.h"
 
-#include "Angles.h"
 #include "CsvTable.h"
 #include "Failure.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include <cmath>
 #include <istream>
 #include <optional>
+#include <regex>
 #include <set>
 
 namespace osgAnalyticBin::flight {
@@ -89,15 +90,8 @@ Columns columnsOf(const CsvTable& table) {
     return columns;
 }
 
-bool isFileName(const std::string& name) {
-    const auto allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    };
-    return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
-}
-
 core::Geodetic positionOf(double latitude, double longitude, double altitude, bool isMap) {
-    const double radians = isMap ? 1.0 / core::Ellipsoid::kMapUnitsInRadian : kRadiansPerDegree;
+    const double radians = isMap ? 1.0 / core::Ellipsoid::kMapUnitsInRadian : glm::radians(1.0);
     return {latitude * radians, longitude * radians, altitude};
 }
 
@@ -125,16 +119,17 @@ CameraPose poseOf(const CsvTable& table, const CsvTable::Row& row, const Columns
     }
     const std::string& name = row.cells[columns.name];
     std::string problem = contradiction(n);
-    if (!isFileName(name)) problem = "name \"" + name + "\" may hold letters, digits, _ and - only";
+    if (!std::regex_match(name, std::regex("[A-Za-z0-9_-]+")))
+        problem = "name \"" + name + "\" may hold letters, digits, _ and - only";
     if (!problem.empty()) throw Failure(atLine(table, row, problem));
     return CameraPose{name,
                       positionOf(n[EyeLat], n[EyeLon], n[EyeAlt], columns.isMap),
                       positionOf(n[LookLat], n[LookLon], n[LookAlt], columns.isMap),
-                      n[Fov] * kRadiansPerDegree,
+                      glm::radians(n[Fov]),
                       n[Near],
                       n[Far],
                       n[Time],
-                      n[Roll] * kRadiansPerDegree,
+                      glm::radians(n[Roll]),
                       n[EyeRight]};
 }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <istream>
 #include <set>
+#include <sstream>
 
 namespace osgAnalyticBin::flight {
 
@@ -28,13 +29,9 @@ std::string trimmed(const std::string& text) {
 
 std::vector<std::string> cellsOf(const std::string& line) {
     std::vector<std::string> cells;
-    std::size_t start = 0;
-    for (;;) {
-        const std::size_t comma = line.find(',', start);
-        cells.push_back(trimmed(line.substr(start, comma == std::string::npos ? comma : comma - start)));
-        if (comma == std::string::npos) return cells;
-        start = comma + 1;
-    }
+    std::istringstream in(line + ',');  // what stands behind the last comma is a cell, too
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(trimmed(cell));
+    return cells;
 }
 
 // Reads the next line that is neither empty nor a comment. Returns: false at the end of the file.

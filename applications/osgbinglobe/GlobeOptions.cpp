@@ -8,6 +8,8 @@
 
 #include <osgAnalyticBin/NameParameters.h>
 
+#include <osgDB/FileNameUtils>
+
 #include <cstdio>
 #include <cstdlib>
 
@@ -30,10 +32,6 @@ bool hasChildren(const TileId& tile, const GlobeOptions& options) {
            tile.y < tile.rows();
 }
 
-std::string withoutFolder(const std::string& fileName) {
-    return fileName.substr(fileName.find_last_of("/\\") + 1);
-}
-
 }  // namespace
 
 void GlobeOptions::declare(CLI::App& app) {
@@ -52,8 +50,7 @@ void GlobeOptions::declare(CLI::App& app) {
 }
 
 GlobeName globeNameOf(const std::string& fileName) {
-    const std::string file = withoutFolder(fileName);
-    const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
+    const NameParameters parts = nameParametersFrom(osgDB::getStrippedName(fileName));
     GlobeName result;
     CLI::App app;
     result.options.declare(app);

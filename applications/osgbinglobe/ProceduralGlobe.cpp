@@ -3,12 +3,13 @@
 
 #include "ProceduralGlobe.h"
 
-#include "Angles.h"
 #include "GlmBridge.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <osg/Geometry>
 
 #include <algorithm>
@@ -21,8 +22,6 @@ using tiles::TileId;
 
 namespace {
 
-using support::kRadiansPerDegree;
-
 constexpr double kStep = TerrainGrid::kStep;
 // Of heights to whole steps.
 constexpr double kRounding = 0.5 * kStep;
@@ -31,14 +30,14 @@ constexpr double kRounding = 0.5 * kStep;
 constexpr double kSea = 0.45;
 // No terrain is higher, metres.
 constexpr double kHighest = 20000.0;
+// Factor of second derivatives, for what is left out.
+constexpr double kHigherOrders = 1.1;
 // Half diagonals from its middle at which a tile is refined.
 constexpr double kLod = 4.0;
 
 constexpr const char* kWkt =
     "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
     "UNIT[\"degree\",0.0174532925199433]]";
-
-using support::kPi;
 
 constexpr double kLongestWave = 5.0e6;  // metres
 constexpr double kWaveRadius = 6.37e6;  // metres, for the length of waves alone
@@ -49,10 +48,10 @@ constexpr double kPersistence = 0.6866;
 core::Interval sineOver(double from, double to) {
     core::Interval range{std::min(std::sin(from), std::sin(to)), std::max(std::sin(from), std::sin(to))};
     const auto holds = [&](double angle) {
-        return std::floor((to - angle) / (2.0 * kPi)) > std::floor((from - angle) / (2.0 * kPi));
+        return std::floor((to - angle) / glm::two_pi<double>()) > std::floor((from - angle) / glm::two_pi<double>());
     };
-    if (holds(0.5 * kPi)) range.upper = 1.0;
-    if (holds(-0.5 * kPi)) range.lower = -1.0;
+    if (holds(glm::half_pi<double>())) range.upper = 1.0;
+    if (holds(-glm::half_pi<double>())) range.lower = -1.0;
     return range;
 }
 
@@ -62,7 +61,7 @@ ProceduralTerrain::ProceduralTerrain(double relief) noexcept : _middle(0.5 * rel
     constexpr double kGoldenAngle = 2.399963229728653;
     double sum = 0.0;
     double share = 1.0;
-    double frequency = 2.0 * kPi * kWaveRadius / kLongestWave;
+    double frequency = glm::two_pi<double>() * kWaveRadius / kLongestWave;
     for (std::size_t i = 0; i < kWaves; ++i) {
         // Directions spread over the sphere, in an order without neighbours.
         const double place = (static_cast<double>((i * 12 + 5) % kWaves) + 0.5) / kWaves;
@@ -78,8 +77,8 @@ ProceduralTerrain::ProceduralTerrain(double relief) noexcept : _middle(0.5 * rel
 }
 
 double ProceduralTerrain::height(const tiles::PositionDeg& position) const noexcept {
-    const double latitude = position.latitudeDeg * kRadiansPerDegree;
-    const double longitude = position.longitudeDeg * kRadiansPerDegree;
+    const double latitude = glm::radians(position.latitudeDeg);
+    const double longitude = glm::radians(position.longitudeDeg);
     const glm::dvec3 up(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
                         std::sin(latitude));
     double height = _middle;
@@ -121,8 +120,7 @@ ProceduralGlobe::ProceduralGlobe(const GlobeOptions& options)
 // How far the edge of a mesh may be above or below the terrain: heights between posts and their rounding, and the sag
 // of the chords.
 double ProceduralGlobe::edgeError(int level) const noexcept {
-    constexpr double kHigherOrders = 1.1;
-    const double spacing = _layout.spacingDeg(level) * kRadiansPerDegree;
+    const double spacing = glm::radians(_layout.spacingDeg(level));
     const double radius = _layout.ellipsoid().equatorialRadius() + kHighest;
     return _terrain.interpolationError(spacing) + kRounding + kHigherOrders * 0.125 * radius * spacing * spacing;
 }
@@ -134,8 +132,7 @@ double ProceduralGlobe::skirtDepth(int level) const noexcept {
 // Steps. A chord between posts of a parallel runs poleward of it, by up to a sixteenth of the square of the spacing in
 // radians; seen from above that opens a strip, over which the skirts lean.
 std::int32_t ProceduralGlobe::skirtLean(int level) const noexcept {
-    constexpr double kHigherOrders = 1.1;
-    const double spacing = _layout.spacingDeg(std::max(0, level - 1)) * kRadiansPerDegree;
+    const double spacing = glm::radians(_layout.spacingDeg(std::max(0, level - 1)));
     const double metres = kHigherOrders * 0.0625 * spacing * spacing * _layout.ellipsoid().equatorialRadius();
     return static_cast<std::int32_t>(std::nearbyint(metres / kStep));
 }
@@ -144,7 +141,7 @@ std::int32_t ProceduralGlobe::skirtLean(int level) const noexcept {
 core::GeodeticBin ProceduralGlobe::meshBox(const TileId& tile, int level, const core::Interval& heights) const {
     const tiles::RectDeg rect = tile.rect();
     constexpr double kLeastRadius = 6.2e6;  // of a meridian's curves, at the feet of skirts
-    const double leanDeg = kStep * skirtLean(tile.level) / kLeastRadius / kRadiansPerDegree;
+    const double leanDeg = glm::degrees(kStep * skirtLean(tile.level) / kLeastRadius);
     const core::GeodeticBin grown =
         core::GeodeticBin::fromDegrees({rect.south - leanDeg, rect.north + leanDeg}, {rect.west, rect.east}, heights);
     const auto posts = (static_cast<std::size_t>(_layout.cells()) << (level - tile.level)) + 1;

@@ -77,10 +77,6 @@ Method neighbour(Method method, std::size_t step) {
     return kMethods[(at + step) % kMethods.size()];
 }
 
-TextPanel::Line countLine(const std::string& what, std::size_t now) {
-    return {"tiles " + what + ": " + std::to_string(now), kSameColour};
-}
-
 TextPanel::Line changeLine(const std::string& what, std::size_t before, std::size_t now) {
     const std::string difference =
         now >= before ? "+" + std::to_string(now - before) : "-" + std::to_string(before - now);
@@ -257,13 +253,11 @@ void MethodSwitchHandler::draw(osgViewer::View& view, osg::Camera& camera) {
     const bool isComparable = CameraCulling::cullingView(camera).view == _viewBefore;
     std::vector<TextPanel::Line> lines{
         {std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method), kSameColour}};
-    const auto add = [&](const char* what, std::size_t TileCounts::*count) {
+    for (const auto& [what, count] :
+         {std::pair("tested", &TileCounts::tested), {"kept", &TileCounts::kept}, {"drawn", &TileCounts::drawn}})
         lines.push_back(isComparable ? changeLine(what, _countsBefore.*count, now.*count)
-                                     : countLine(what, now.*count));
-    };
-    add("tested", &TileCounts::tested);
-    add("kept", &TileCounts::kept);
-    add("drawn", &TileCounts::drawn);
+                                     : TextPanel::Line{std::string("tiles ") + what + ": " + std::to_string(now.*count),
+                                                       kSameColour});
     _panel->show(camera, lines);
 }
 

@@ -38,7 +38,8 @@ public:
 
     /// Shows the lines on a camera; none: nothing is shown.
     void show(osg::Camera& camera, const std::vector<Line>& lines);
-    void hide();
+    /// The panel stays in the overlay, to be found when a window closes.
+    void hide() { _hud->setNodeMask(0); }
 
 private:
     const Corner _corner;
@@ -60,8 +61,7 @@ public:
             if (!cameras.empty()) draw(*view, *cameras.front());
             return false;
         }
-        if (event.getHandled()) return false;
-        if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
+        if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
         for (const Key& key : _keys) {
             if (key.key != event.getKey()) continue;
             key.press(*view);

@@ -6,6 +6,7 @@
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 
+#include <glm/trigonometric.hpp>
 #include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/Depth>
@@ -21,14 +22,13 @@ namespace osgAnalyticBin::viewer {
 
 namespace {
 
-constexpr double kRadiansPerStep = 3.14159265358979323846 / 180.0;
 constexpr int kFewestSteps = 16;
 const osg::Vec4 kBackground(0.2F, 0.2F, 0.4F, 1.0F);  // OSG's, of a window
 constexpr double kInFront = 1e-3;                     // of the distance: more than depth buffers tell apart
 
 // Of a box's parameter: chords of at most a degree, and finer in tiles near by, so that terrain does not come through.
 int stepsOf(const core::Interval& angles) {
-    return std::max(kFewestSteps, static_cast<int>(std::ceil(angles.width() / kRadiansPerStep)));
+    return std::max(kFewestSteps, static_cast<int>(std::ceil(glm::degrees(angles.width()))));
 }
 
 // Maps the unit box [-1, 1]^3 to ECEF.

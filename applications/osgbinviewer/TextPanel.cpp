@@ -29,16 +29,12 @@ osg::ref_ptr<osgText::Text> makeText(const TextPanel::Line& line, const osg::Vec
 }
 
 osg::ref_ptr<osg::Geometry> makeBackground(float left, float bottom, float width, float height) {
-    osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
+    osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry(
+        osg::Vec3(left, bottom, -0.5F), osg::Vec3(width, 0.0F, 0.0F), osg::Vec3(0.0F, height, 0.0F));
     quad->setUseVertexBufferObjects(true);
-    const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
-    for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {width, 0.0F}, {width, height}, {0.0F, height}})
-        corners->push_back(osg::Vec3(left + x, bottom + y, -0.5F));
-    quad->setVertexArray(corners);
     const osg::ref_ptr<osg::Vec4Array> colour = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
     (*colour)[0].set(0.0F, 0.0F, 0.1F, 0.75F);
     quad->setColorArray(colour);
-    quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
     return quad;
 }
 
@@ -57,11 +53,6 @@ TextPanel::TextPanel(Corner corner) : _corner(corner), _hud(new osg::Camera) {
     state.setMode(GL_BLEND, osg::StateAttribute::ON);
     constexpr int kLast = 1000;
     state.setRenderBinDetails(kLast, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
-}
-
-// It stays in the overlay, to be found when a window closes.
-void TextPanel::hide() {
-    _hud->setNodeMask(0);
 }
 
 void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {

@@ -22,8 +22,9 @@ public:
     /// loaded of the scene. Between frames only. Cost: one intersection with the scene for each model.
     void scatter(osg::Node& scene, const osg::Vec3d& eye, double reach);
 
-    /// Sets whether the models ask whether terrain hides them.
+    /// Sets whether the models ask whether terrain hides them. At first they do.
     void setAsking(bool asks);
+    [[nodiscard]] bool isAsking() const { return _asks; }
 
     /// How many models the cull traversals since the last call have drawn.
     [[nodiscard]] unsigned int takeDrawn() { return _drawn->models.exchange(0); }
@@ -53,7 +54,6 @@ protected:
 private:
     Traffic _traffic;
     bool _isDue = true;
-    bool _asks = true;
     const osg::ref_ptr<TextPanel> _panel = new TextPanel(TextPanel::Corner::BottomRight);
 };
 

@@ -120,8 +120,7 @@ osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     vertices->push_back(osg::Vec3());
     for (const osg::Vec3d& point : border) vertices->push_back(osg::Vec3(point - eye));
-    std::vector<unsigned int> sides;
-    std::vector<unsigned int> edges;
+    std::vector<unsigned int> sides, edges;
     const auto count = static_cast<unsigned int>(border.size());
     for (unsigned int i = 0; i < count; ++i) {
         const unsigned int next = (i + 1) % count;

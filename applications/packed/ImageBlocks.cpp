@@ -81,9 +81,8 @@ void store(const Block& block, unsigned char* target) {
         const std::array<Colour, 4> palette{a, b, (2 * a + b) / 3, (a + 2 * b) / 3};
         for (std::uint32_t i = 0; i < 16; ++i) indices |= nearest(block[i], palette) << (2 * i);
     }
-    for (int i = 0; i < 2; ++i) target[i] = static_cast<unsigned char>(first >> (8 * i));
-    for (int i = 0; i < 2; ++i) target[2 + i] = static_cast<unsigned char>(second >> (8 * i));
-    for (int i = 0; i < 4; ++i) target[4 + i] = static_cast<unsigned char>(indices >> (8 * i));
+    const std::uint64_t bits = first | std::uint64_t{second} << 16 | std::uint64_t{indices} << 32;
+    for (int i = 0; i < 8; ++i) target[i] = static_cast<unsigned char>(bits >> (8 * i));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +15,13 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
-
 struct Turn {
     double sine;
     double cosine;
 };
 
 Turn turnOf(double degrees) {
-    const double angle = degrees * kRadiansPerDegree;
+    const double angle = glm::radians(degrees);
     return {std::sin(angle), std::cos(angle)};
 }
 
@@ -216,9 +216,8 @@ double shadeOf(const glm::dvec3& normalLocal, double exaggeration) {
 class ReliefPainter {
 public:
     ReliefPainter(const TerrainGrid& grid, const Posts& posts) : _grid(grid), _posts(posts) {
-        constexpr double kRoundTheGlobe = 6.283185307179586;
-        _exaggeration =
-            exaggerationFor(kRoundTheGlobe * grid.ellipsoid.equatorialRadius() / static_cast<double>(grid.columns));
+        _exaggeration = exaggerationFor(glm::two_pi<double>() * grid.ellipsoid.equatorialRadius() /
+                                        static_cast<double>(grid.columns));
         for (int row = 0; row <= grid.cells; ++row)
             _snowLines.push_back(
                 snowLine(-90.0 + 360.0 * static_cast<double>(grid.firstRow + row) / static_cast<double>(grid.columns)));
@@ -356,9 +355,7 @@ void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinat
     for (int row = 0; row <= cells; ++row)
         for (int column = 0; column <= cells; ++column)
             coordinates.push_back(osg::Vec2(coordinate(column), coordinate(row)));
-    forSkirtPosts(cells, [&](std::size_t, std::size_t, int column, int row) {
-        coordinates.push_back(osg::Vec2(coordinate(column), coordinate(row)));
-    });
+    repeatAtSkirts(cells, coordinates);
 }
 
 void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry) {

@@ -85,7 +85,7 @@ struct TerrainGrid {
 /// The mesh as OSG draws it, without the triangles and texture coordinates, which tiles may share.
 void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry);
 
-/// One for each vertex, behind what is there already.
+/// One for each vertex. Requires: none is there yet.
 void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates);
 
 /// The bytes of a grid. Each height is stored as its difference from a prediction by its neighbours. The bytes are the

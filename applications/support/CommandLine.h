@@ -12,6 +12,12 @@ namespace osgAnalyticBin::support {
 /// For options that are numbers: as CLI::Range, which lets "nan" pass.
 [[nodiscard]] CLI::Validator within(double lower, double upper);
 
+/// Adds an option for a list that is one word, with commas.
+template <class List>
+CLI::Option* addList(CLI::App& app, const char* name, List& list, const char* description) {
+    return app.add_option(name, list, description)->delimiter(',')->allow_extra_args(false);
+}
+
 /// Reads "key=value,key=value", the parameters in the brackets of a pseudo-loader's name, by options --key.
 /// Throws Failure for one that is unknown or malformed.
 void parseParameters(CLI::App& app, const std::string& text);

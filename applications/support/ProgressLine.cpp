@@ -3,6 +3,8 @@
 
 #include "ProgressLine.h"
 
+#include "TextFile.h"
+
 #include <algorithm>
 #include <cmath>
 #if defined(_WIN32)
@@ -25,23 +27,15 @@ bool leadsToTerminal(std::FILE* stream) {
 
 /// Seconds as people say them: "40 s", "12 min", "3 h 05 min".
 std::string durationText(double seconds) {
-    char text[64];
+    if (seconds < 90.0) return withDecimals(std::ceil(seconds), 0) + " s";
     const double minutes = std::ceil(seconds / 60.0);
-    if (seconds < 90.0) {
-        std::snprintf(text, sizeof text, "%.0f s", std::ceil(seconds));
-    } else if (minutes < 90.0) {
-        std::snprintf(text, sizeof text, "%.0f min", minutes);
-    } else {
-        const double hours = std::floor(minutes / 60.0);
-        std::snprintf(text, sizeof text, "%.0f h %02.0f min", hours, minutes - 60.0 * hours);
-    }
-    return text;
+    if (minutes < 90.0) return withDecimals(minutes, 0) + " min";
+    const double hours = std::floor(minutes / 60.0), rest = minutes - 60.0 * hours;
+    return withDecimals(hours, 0) + (rest < 10.0 ? " h 0" : " h ") + withDecimals(rest, 0) + " min";
 }
 
 std::string percent(double share) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%2.0f %%", 100.0 * share);
-    return text;
+    return withDecimals(100.0 * share, 0) + " %";
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ void makeFolder(const std::string& folder);
 /// A file that is open for reading and writing, made if it is missing, and locked against other programs.
 class LockedFile final {
 public:
-    /// `program` and `output`: for messages. `flags`: as open() takes them, more than
-    /// needed. Throws: Failure.
+    /// `program` and `output`: for messages. `flags`: more of open()'s. Throws: Failure.
     LockedFile(std::string path, const std::string& program, const std::string& output, int flags = 0);
     LockedFile(const LockedFile&) = delete;
     LockedFile& operator=(const LockedFile&) = delete;

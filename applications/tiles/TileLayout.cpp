@@ -3,14 +3,13 @@
 
 #include "TileLayout.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <tuple>
 
 namespace osgAnalyticBin::tiles {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadiansPerDegree = kPi / 180.0;
 
 std::int64_t wrapped(std::int64_t value, std::int64_t count) {
     return ((value % count) + count) % count;
@@ -47,17 +46,10 @@ TileId TileId::ancestor(int ancestorLevel) const noexcept {
 }
 
 std::optional<TileId> TileId::neighbour(Edge edge) const noexcept {
-    switch (edge) {
-        case Edge::South:
-            return y > 0 ? std::optional<TileId>(TileId{level, x, y - 1}) : std::nullopt;
-        case Edge::North:
-            return y < rows() - 1 ? std::optional<TileId>(TileId{level, x, y + 1}) : std::nullopt;
-        case Edge::West:
-            return TileId{level, (x + columns() - 1) % columns(), y};
-        case Edge::East:
-            break;
-    }
-    return TileId{level, (x + 1) % columns(), y};
+    const int east = edge == Edge::East ? x + 1 : edge == Edge::West ? x + columns() - 1 : x;
+    const int north = edge == Edge::North ? y + 1 : edge == Edge::South ? y - 1 : y;
+    if (north < 0 || north >= rows()) return std::nullopt;
+    return TileId{level, east % columns(), north};
 }
 
 RectDeg TileId::rect() const noexcept {
@@ -126,7 +118,7 @@ PositionDeg TileLayout::position(PostId post) const noexcept {
 core::Geodetic TileLayout::geodetic(PostId post, double altitude) const noexcept {
     const double columns = std::ldexp(TileId::kStartColumns * _cells, post.level);
     const double longitudeDeg = -180.0 + 360.0 * static_cast<double>(post.column) / columns;
-    return {position(post).latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude};
+    return {glm::radians(position(post).latitudeDeg), glm::radians(longitudeDeg), altitude};
 }
 
 PostId TileLayout::firstPost(const TileId& tile, int level) const noexcept {

@@ -72,7 +72,6 @@ struct TileId {
     /// The tile across the edge, round the globe. Returns: nullopt at a pole.
     [[nodiscard]] std::optional<TileId> neighbour(Edge edge) const noexcept;
 
-    [[nodiscard]] bool touchesPole() const noexcept { return y == 0 || y == rows() - 1; }
     [[nodiscard]] RectDeg rect() const noexcept;
 
     [[nodiscard]] bool operator==(const TileId& other) const noexcept {

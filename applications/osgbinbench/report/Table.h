@@ -21,6 +21,18 @@ using Json = nlohmann::ordered_json;
 /// each row. Numbers read back exactly; a cell that a row does not have is empty; texts with a comma are quoted.
 [[nodiscard]] std::string csvOf(const std::vector<Json>& rows);
 
+/// Columns, each a `name` and its `meaning`, for --help: one a line, the meanings below each other.
+template <class Columns>
+[[nodiscard]] std::string linesOf(const Columns& columns, std::size_t width) {
+    std::string text;
+    for (const auto& column : columns) {
+        std::string name = std::string("  ") + column.name;
+        name.resize(width, ' ');
+        text += name + column.meaning + "\n";
+    }
+    return text;
+}
+
 /// The value over the reference; "-" where that is not above zero.
 [[nodiscard]] std::string ratioText(double value, double reference);
 
@@ -74,9 +86,5 @@ struct PathGroup {
 
 /// The sums of the columns over the poses of one group. Requires: at least one row.
 [[nodiscard]] Json sumOf(const MethodFigures& method, const PathGroup& group);
-/// The same over all rows.
-[[nodiscard]] inline Json sumOf(const MethodFigures& method) {
-    return sumOf(method, allOf(method));
-}
 
 }  // namespace osgAnalyticBin::report

@@ -3,7 +3,6 @@
 
 #include "ScaleCommand.h"
 
-#include "Angles.h"
 #include "CommandLine.h"
 #include "CullMethod.h"
 #include "CullTimer.h"
@@ -13,8 +12,10 @@
 #include "Table.h"
 #include "TextFile.h"
 
+#include <glm/trigonometric.hpp>
 #include <osg/Notify>
 #include <osg/PagedLOD>
+#include <osg/Timer>
 #include <osgDB/DatabasePager>
 #include <osgDB/Options>
 #include <osgDB/ReadFile>
@@ -22,7 +23,6 @@
 #include <GlobeOptions.h>
 #include <ProceduralGlobe.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -103,15 +103,14 @@ std::vector<CameraPose> descent(const globe::GlobeOptions& options, int poses) {
     const double tile = std::ldexp(tiles::TileLayout::kStartTileDeg, -options.levels) * kMetresPerDegree;
     const globe::ProceduralTerrain terrain(globe::GlobeOptions::kRelief);
     const auto above = [&](const tiles::PositionDeg& at, double metres) {
-        return core::Geodetic{at.latitudeDeg * kRadiansPerDegree, at.longitudeDeg * kRadiansPerDegree,
-                              terrain.height(at) + metres};
+        return core::Geodetic{glm::radians(at.latitudeDeg), glm::radians(at.longitudeDeg), terrain.height(at) + metres};
     };
     std::vector<CameraPose> path;
     for (int i = 0; i < poses; ++i) {
         const double metres = kHighest * std::pow(0.5 * tile / kHighest, static_cast<double>(i) / (poses - 1));
         const double ahead = std::min(kFarthestDeg, kSlant * metres / kMetresPerDegree);
         path.push_back({"descent_" + std::to_string(i), above(kStart, metres),
-                        above({kStart.latitudeDeg + ahead, kStart.longitudeDeg}, 0.0), kFovDeg * kRadiansPerDegree,
+                        above({kStart.latitudeDeg + ahead, kStart.longitudeDeg}, 0.0), glm::radians(kFovDeg),
                         0.1 * metres, 100.0 * kHighest});
     }
     return path;
@@ -160,12 +159,6 @@ std::pair<std::size_t, std::size_t> fill(MethodScene& scene, const CameraPose& p
     return {loaded.size(), count};
 }
 
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
 // Milliseconds, first quartile, of the DatabasePager's part of a frame's update, without its threads: of one that has
 // all PagedLODs above its target. What is loaded is walked over, but not thrown away.
 double pagerMs(MethodScene& scene, int rounds) {
@@ -177,9 +170,9 @@ double pagerMs(MethodScene& scene, int rounds) {
     pager->setTargetMaximumNumberOfPageLOD(0);
     std::vector<double> times;
     for (int round = 0; round < rounds; ++round) {
-        const auto begin = Clock::now();
+        const osg::ElapsedTime begin;
         pager->updateSceneGraph(scene.frameStamp());
-        times.push_back(msSince(begin));
+        times.push_back(begin.elapsedTime_m());
     }
     return support::Quantiles(times).at(1, 4);
 }
@@ -199,9 +192,9 @@ Json memoryOf(const std::string& name, const CullMethod& method, int tiles, bool
     // The start tiles and what is loaded only once do not count.
     const std::size_t start = pagedLodsIn(scene->root()).size();
     const double bytes = allocatedBytes();
-    const auto begin = Clock::now();
+    const osg::ElapsedTime begin;
     const auto [before, after] = fill(*scene, far, start + static_cast<std::size_t>(tiles));
-    const double us = 1000.0 * msSince(begin);
+    const double us = begin.elapsedTime_u();
     const double more = allocatedBytes() - bytes;
     const auto loaded = static_cast<double>(after - before);
     return {{"method", name},
@@ -264,9 +257,9 @@ Rows measureDepth(const Settings& settings, FileWatch& watch) {
 Rows measureResidents(const Settings& settings, FileWatch& watch) {
     // From 1000 km up, obliquely.
     const CameraPose view{"resident",
-                          {46.0 * kRadiansPerDegree, 10.0 * kRadiansPerDegree, 1e6},
-                          {52.0 * kRadiansPerDegree, 10.0 * kRadiansPerDegree, 0.0},
-                          30.0 * kRadiansPerDegree,
+                          {glm::radians(46.0), glm::radians(10.0), 1e6},
+                          {glm::radians(52.0), glm::radians(10.0), 0.0},
+                          glm::radians(30.0),
                           1e4,
                           1e8};
     // Deep enough for a million tiles on half of the globe, with meshes as small as they get.
@@ -325,20 +318,12 @@ constexpr const char* kFooter =
     "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json";
 
 void declare(CLI::App& app, Settings& settings) {
-    app.add_option("--series", settings.series, "comma-separated: depth, residents, memory (default: all)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_option("--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_option("--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")
-        ->delimiter(',')
-        ->allow_extra_args(false)
+    support::addList(app, "--series", settings.series, "comma-separated: depth, residents, memory (default: all)");
+    support::addList(app, "--methods", settings.methodNames, "comma-separated (default: sphere,bins,oracle)");
+    support::addList(app, "--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")
         ->check(CLI::Range(0, 24));
-    app.add_option("--residents", settings.residents,
-                   "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)")
-        ->delimiter(',')
-        ->allow_extra_args(false)
+    support::addList(app, "--residents", settings.residents,
+                     "PagedLODs in memory, at least, 1 to 1000000\n(default 100,1000,10000,100000)")
         ->check(CLI::Range(1, 1000000));
     app.add_option("--memory-tiles", settings.memoryTiles, "tiles whose memory is counted (default 10000)")
         ->check(CLI::Range(1, 1000000));

@@ -3,9 +3,8 @@
 
 #include "Camera.h"
 
-#include "Angles.h"
-
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -13,8 +12,6 @@
 namespace osgAnalyticBin::paper {
 
 namespace {
-
-using support::kRadiansPerDegree;
 
 /// Gives the same sequence on every machine, one a stream.
 /// Source: [SLF], SplitMix64.
@@ -54,8 +51,8 @@ core::Plane through(const glm::dvec3& inward, const glm::dvec3& point) {
 // Looks along an azimuth (degrees, clockwise from north), so much below the horizontal.
 Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg, double pitchDeg,
                 double fovDeg) {
-    const double azimuth = azimuthDeg * kRadiansPerDegree;
-    const double pitch = -pitchDeg * kRadiansPerDegree;
+    const double azimuth = glm::radians(azimuthDeg);
+    const double pitch = -glm::radians(pitchDeg);
     const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
     const glm::dvec3 axis(0.0, 0.0, 1.0);
     const glm::dvec3 east = glm::cross(axis, radial);
@@ -70,7 +67,7 @@ Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position
 }  // namespace
 
 std::array<core::Plane, 4> Camera::planes() const noexcept {
-    const double half = std::tan(0.5 * fovDeg * kRadiansPerDegree);
+    const double half = std::tan(glm::radians(0.5 * fovDeg));
     return {through(right + kAspect * half * forward, eye), through(-right + kAspect * half * forward, eye),
             through(up + half * forward, eye), through(-up + half * forward, eye)};
 }
@@ -80,9 +77,8 @@ Camera randomCamera(Terrain& terrain, std::size_t kind, std::size_t number) {
     SeededRandom random(kViewKinds.size() * number + kind);
     const osgbindem::RectDeg extent = terrain.extent();
     // Equal areas are equally likely.
-    const double sine =
-        random.uniform(std::sin(extent.south * kRadiansPerDegree), std::sin(extent.north * kRadiansPerDegree));
-    const double longitude = random.uniform(extent.west, extent.east) * kRadiansPerDegree;
+    const double sine = random.uniform(std::sin(glm::radians(extent.south)), std::sin(glm::radians(extent.north)));
+    const double longitude = glm::radians(random.uniform(extent.west, extent.east));
     core::Geodetic position = terrain.onSurface({std::asin(sine), longitude, 0.0});
     position.altitude += random.logUniform(view.lowest, view.highest);
     const double azimuthDeg = random.uniform(0.0, 360.0);

@@ -45,61 +45,45 @@ bool isWorse(const WrongCull& a, const WrongCull& b) {
     return std::tie(a.isHole, a.witness.depth) > std::tie(b.isHole, b.witness.depth);
 }
 
+Counts countsOf(Terrain& terrain, const Camera& camera, const TreeTile& tile, Verdict verdict,
+                std::optional<WrongCull>& worst) {
+    Counts counts;
+    counts.tested = isTested(verdict) ? 1 : 0;
+    counts.drawn = isKept(verdict) && tile.isLeaf() ? 1 : 0;
+    counts.lostLeaves = tile.isLeaf() && tile.witness && !isKept(verdict) ? 1 : 0;
+    counts.wrongKeeps = counts.drawn == 1 && tile.isOutside ? 1 : 0;
+    counts.wrongInsides = verdict == Verdict::Inside && !isTrulyInside(tile.bins.exact, camera) ? 1 : 0;
+    if (verdict != Verdict::Outside || !tile.witness || tile.witness->depth <= kRounding) return counts;
+    const auto seen = findTerrainWitness(terrain, tile.box, camera);
+    const WrongCull found{camera, tile.box, seen ? *seen : *tile.witness, seen.has_value()};
+    counts.wrongCulls = 1;
+    counts.holes = found.isHole ? 1 : 0;
+    if (!worst || isWorse(found, *worst)) worst = found;
+    return counts;
+}
+
 /// One camera: the verdicts of all methods against what is proven of the tiles.
-class CameraRun {
-public:
-    CameraRun(Terrain& terrain, std::size_t kind, std::size_t number, Results& results)
-        : _terrain(terrain),
-          _kind(kind),
-          _camera(randomCamera(terrain, kind, number)),
-          _tree(terrain, _camera),
-          _results(results) {}
-
-    void judge() {
-        ViewResult& view = _results.views[_kind];
-        ++view.cameras;
-        for (const TreeTile& tile : _tree.tiles) view.seenLeaves += tile.isLeaf() && tile.witness ? 1U : 0U;
-        const Frustum frustum(_camera);
-        for (std::size_t method = 0; method < kMethods; ++method) {
-            const std::vector<Verdict> verdicts = cull(_tree, frustum, static_cast<Method>(method));
-            for (std::size_t tile = 0; tile < verdicts.size(); ++tile)
-                view.methods[method].add(countsOf(tile, verdicts[tile], _results.worst[method]));
-        }
+void judge(Terrain& terrain, std::size_t kind, std::size_t number, Results& results) {
+    const Camera camera = randomCamera(terrain, kind, number);
+    const TileTree tree(terrain, camera);
+    const Frustum frustum(camera);
+    ViewResult& view = results.views[kind];
+    ++view.cameras;
+    for (const TreeTile& tile : tree.tiles) view.seenLeaves += tile.isLeaf() && tile.witness ? 1U : 0U;
+    for (std::size_t method = 0; method < kMethods; ++method) {
+        const std::vector<Verdict> verdicts = cull(tree, frustum, static_cast<Method>(method));
+        for (std::size_t i = 0; i < verdicts.size(); ++i)
+            view.methods[method].add(countsOf(terrain, camera, tree.tiles[i], verdicts[i], results.worst[method]));
     }
-
-private:
-    Counts countsOf(std::size_t i, Verdict verdict, std::optional<WrongCull>& worst) {
-        const TreeTile& tile = _tree.tiles[i];
-        Counts counts;
-        counts.tested = isTested(verdict) ? 1 : 0;
-        counts.drawn = isKept(verdict) && tile.isLeaf() ? 1 : 0;
-        counts.lostLeaves = tile.isLeaf() && tile.witness && !isKept(verdict) ? 1 : 0;
-        counts.wrongKeeps = counts.drawn == 1 && tile.isOutside ? 1 : 0;
-        counts.wrongInsides = verdict == Verdict::Inside && !isTrulyInside(tile.bins.exact, _camera) ? 1 : 0;
-        if (verdict != Verdict::Outside || !tile.witness || tile.witness->depth <= kRounding) return counts;
-        const auto seen = findTerrainWitness(_terrain, tile.box, _camera);
-        const WrongCull found{_camera, tile.box, seen ? *seen : *tile.witness, seen.has_value()};
-        counts.wrongCulls = 1;
-        counts.holes = found.isHole ? 1 : 0;
-        if (!worst || isWorse(found, *worst)) worst = found;
-        return counts;
-    }
-
-    Terrain& _terrain;
-    std::size_t _kind;
-    Camera _camera;
-    TileTree _tree;
-    Results& _results;
-};
+}
 
 std::vector<Json> rowsOf(const char* name, const ViewResult& view) {
     std::vector<Json> rows;
     for (std::size_t method = 0; method < kMethods; ++method) {
-        Json& row = rows.emplace_back();
-        row["view"] = name;
-        row["method"] = kMethodNames[method];
-        row["cameras"] = view.cameras;
-        row["seen_leaves"] = view.seenLeaves;
+        Json& row = rows.emplace_back(Json{{"view", name},
+                                           {"method", kMethodNames[method]},
+                                           {"cameras", view.cameras},
+                                           {"seen_leaves", view.seenLeaves}});
         for (const CountColumn& column : kColumns) row[column.name] = view.methods[method].*column.count;
     }
     return rows;
@@ -127,7 +111,7 @@ Results runExperiment(Terrain& terrain, std::size_t cameras, const std::function
     Results results;
     for (std::size_t number = 0; number < cameras; ++number) {
         if (progress) progress(static_cast<double>(number) / static_cast<double>(cameras));
-        for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) CameraRun(terrain, kind, number, results).judge();
+        for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) judge(terrain, kind, number, results);
     }
     return results;
 }
@@ -156,13 +140,7 @@ void printTables(std::ostream& output, const Results& results) {
 }
 
 std::string meaningOfColumns() {
-    std::string text;
-    for (const CountColumn& column : kColumns) {
-        std::string name = column.name;
-        name.resize(15, ' ');
-        text += "  " + name + column.meaning + "\n";
-    }
-    return text;
+    return report::linesOf(kColumns, 17);
 }
 
 }  // namespace osgAnalyticBin::paper

@@ -3,18 +3,16 @@
 
 #include "Terrain.h"
 
-#include "Angles.h"
 #include "GlmBridge.h"
 #include "RasterLayer.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
-#include <cmath>
 
 namespace osgAnalyticBin::paper {
 
 namespace {
-
-using support::kDegreesPerRadian;
 
 osgbindem::Settings settingsFor(const std::string& dem) {
     osgbindem::Settings settings;
@@ -31,33 +29,22 @@ osgbindem::RectDeg extentOf(const std::string& dem) {
 }  // namespace
 
 Terrain::Terrain(const std::string& dem, int deepestLevel)
-    : _ellipsoid(defaultEllipsoid()),
-      _mosaic(settingsFor(dem)),
-      _extent(extentOf(dem)),
-      _heights(static_cast<std::size_t>(deepestLevel) + 1) {
-    for (int level = 0; level <= deepestLevel; ++level) {
-        const TileId any{level, 0, 0};
-        _heights[static_cast<std::size_t>(level)].resize(static_cast<std::size_t>(any.columns() * any.rows()));
-    }
-    for (int y = 0; y < TileId::kStartRows; ++y)
-        for (int x = 0; x < TileId::kStartColumns; ++x) findHeights({0, x, y});
+    : _ellipsoid(defaultEllipsoid()), _mosaic(settingsFor(dem)), _extent(extentOf(dem)), _deepestLevel(deepestLevel) {
     (void)_mosaic.inspect();
 }
 
-core::Interval Terrain::findHeights(const TileId& tile) {
-    core::Interval& heights = _heights[level(tile)][place(tile)];
-    if (tile.level == deepestLevel()) {
-        const core::Interval range = _mosaic.range(tile.rect());
-        return heights = {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
-    }
-    heights = core::Interval::none();
-    for (const TileId& child : tile.children()) heights = heights.united(findHeights(child));
-    return heights;
-}
-
-core::GeodeticBin Terrain::bin(const TileId& tile) const {
+const core::GeodeticBin& Terrain::bin(const TileId& tile) {
+    const auto [known, isNew] = _bins.try_emplace(tile);
+    if (!isNew) return known->second;
     const osgbindem::RectDeg rect = tile.rect();
-    return core::GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, heights(tile));
+    core::Interval heights = core::Interval::none();
+    if (tile.level == _deepestLevel) {
+        const core::Interval range = _mosaic.range(rect);
+        heights = {std::max(range.lower, 0.0), std::max(range.upper, 0.0)};
+    } else {
+        for (const TileId& child : tile.children()) heights = heights.united(bin(child).altitude());
+    }
+    return known->second = core::GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, heights);
 }
 
 double Terrain::height(const osgbindem::PositionDeg& position) {
@@ -66,7 +53,7 @@ double Terrain::height(const osgbindem::PositionDeg& position) {
 
 core::Geodetic Terrain::onSurface(const core::Geodetic& position) {
     return {position.latitude, position.longitude,
-            height({position.latitude * kDegreesPerRadian, position.longitude * kDegreesPerRadian})};
+            height({glm::degrees(position.latitude), glm::degrees(position.longitude)})};
 }
 
 }  // namespace osgAnalyticBin::paper

@@ -9,8 +9,8 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
+#include <map>
 #include <string>
-#include <vector>
 
 namespace osgAnalyticBin::paper {
 
@@ -21,19 +21,16 @@ class Terrain final {
 public:
     static constexpr int kDeepest = 8;
 
-    /// Heights below 0 m, those of the sea's floor, are taken for its surface.
-    /// Finds the lowest and highest altitude of every tile down to a level in advance, 0 to kDeepest.
-    /// Source: [JJ] section 4: heights of every block from a pyramid.
+    /// Heights below 0 m, those of the sea's floor, are taken for its surface. `deepestLevel`: 0 to kDeepest.
     /// Throws: osgbindem::Failure when the raster cannot be read.
     Terrain(const std::string& dem, int deepestLevel);
 
-    [[nodiscard]] int deepestLevel() const noexcept { return static_cast<int>(_heights.size()) - 1; }
+    [[nodiscard]] int deepestLevel() const noexcept { return _deepestLevel; }
 
-    /// Metres above the ellipsoid. Requires: tile.level <= deepestLevel().
-    [[nodiscard]] const core::Interval& heights(const TileId& tile) const { return _heights[level(tile)][place(tile)]; }
-
-    /// The tile's analytic bin. Requires: as heights().
-    [[nodiscard]] core::GeodeticBin bin(const TileId& tile) const;
+    /// The tile's analytic bin, with the altitudes of all tiles of the deepest level in it.
+    /// Source: [JJ] section 4: heights of every block from a pyramid.
+    /// Cost: all posts of the tile, when it is asked for first.
+    [[nodiscard]] const core::GeodeticBin& bin(const TileId& tile);
 
     [[nodiscard]] const core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
 
@@ -47,18 +44,11 @@ public:
     [[nodiscard]] core::Geodetic onSurface(const core::Geodetic& position);
 
 private:
-    [[nodiscard]] static std::size_t level(const TileId& tile) { return static_cast<std::size_t>(tile.level); }
-    [[nodiscard]] static std::size_t place(const TileId& tile) {
-        return static_cast<std::size_t>(tile.y) * static_cast<std::size_t>(tile.columns()) +
-               static_cast<std::size_t>(tile.x);
-    }
-
-    core::Interval findHeights(const TileId& tile);
-
     core::Ellipsoid _ellipsoid;
     osgbindem::DemMosaic _mosaic;
     osgbindem::RectDeg _extent;
-    std::vector<std::vector<core::Interval>> _heights;  // of each level, rows from south to north
+    int _deepestLevel;
+    std::map<TileId, core::GeodeticBin> _bins;  // of the tiles that were asked for
 };
 
 }  // namespace osgAnalyticBin::paper

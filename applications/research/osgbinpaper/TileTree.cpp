@@ -3,12 +3,11 @@
 
 #include "TileTree.h"
 
-#include "Angles.h"
-
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,20 +30,12 @@ TileBins::TileBins(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bi
       reverse(exact, bin) {}
 
 Side TileBins::classify(Method method, const core::PlaneSet& planes, core::PlaneMask& undecided) const noexcept {
-    switch (method) {
-        case Method::Box:
-            return core::classify(box, planes, undecided);
-        case Method::Corners:
-            return core::classify(corners, planes, undecided);
-        case Method::Paper:
-            return core::classify(paper, planes, undecided);
-        case Method::Quadratic:
-            return core::classify(quadratic, planes, undecided);
-        case Method::Exact:
-        case Method::Hull:
-            break;
-    }
-    return core::classify(exact, planes, undecided);
+    const auto by = [&](const auto& bin) { return core::classify(bin, planes, undecided); };
+    return method == Method::Box         ? by(box)
+           : method == Method::Corners   ? by(corners)
+           : method == Method::Paper     ? by(paper)
+           : method == Method::Quadratic ? by(quadratic)
+                                         : by(exact);
 }
 
 Side TileBins::classify(Method method, const Frustum& frustum) const noexcept {
@@ -73,47 +64,36 @@ double depthOf(const glm::dvec3& point, const std::array<core::Plane, 4>& planes
     return least;
 }
 
+template <class Depth>
 struct Best {
+    const Depth& depthAt;
     Shares shares{0.5};
     double depth = -std::numeric_limits<double>::infinity();
+
+    void consider(const Shares& other) {
+        const double value = depthAt(other);
+        if (!(value > depth)) return;
+        shares = other;
+        depth = value;
+    }
 };
 
-// Steps along the axes and along the diagonals, which a corner between two sides of the frustum needs.
+// A grid of samples, then ever smaller steps from the best: along the axes and along the diagonals, which a corner
+// between two sides of the frustum needs. `axes`: 2 on a surface, where the last share does not count.
 template <class Depth>
-void climb(const Depth& depth, glm::length_t axes, Best& best) {
+Best<Depth> deepest(const Depth& depth, int axes) {
+    Best<Depth> best{depth};
+    for (int i = 0; i <= kSearchSteps; ++i)
+        for (int j = 0; j <= kSearchSteps; ++j)
+            for (int k = 0; k <= axes - 2; ++k)
+                best.consider({static_cast<double>(i) / kSearchSteps, static_cast<double>(j) / kSearchSteps, k});
     double step = 0.5 / kSearchSteps;
     for (int halving = 0; halving < kHalvings; step *= 0.5, ++halving) {
         const Shares from = best.shares;
-        for (int i = -1; i <= 1; ++i) {
-            for (int j = -1; j <= 1; ++j) {
-                Shares to = from + step * glm::dvec3(i, j, 0.0);
-                to = {std::clamp(to.x, 0.0, 1.0), std::clamp(to.y, 0.0, 1.0), to.z};
-                const double value = depth(to);
-                if (value > best.depth) best = {to, value};
-            }
-        }
-        if (axes < 3) continue;
-        for (const double z : {0.0, 1.0}) {
-            const Shares to{best.shares.x, best.shares.y, z};
-            const double value = depth(to);
-            if (value > best.depth) best = {to, value};
-        }
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j) best.consider(glm::clamp(from + step * glm::dvec3(i, j, 0.0), 0.0, 1.0));
+        for (int k = 0; k <= axes - 2; ++k) best.consider({best.shares.x, best.shares.y, k});
     }
-}
-
-template <class Depth>
-Best deepest(const Depth& depth, glm::length_t axes) {
-    Best best;
-    for (int i = 0; i <= kSearchSteps; ++i) {
-        for (int j = 0; j <= kSearchSteps; ++j) {
-            for (int k = 0; k <= (axes < 3 ? 0 : 1); ++k) {
-                const Shares shares{static_cast<double>(i) / kSearchSteps, static_cast<double>(j) / kSearchSteps, k};
-                const double value = depth(shares);
-                if (value > best.depth) best = {shares, value};
-            }
-        }
-    }
-    climb(depth, axes, best);
     return best;
 }
 
@@ -138,7 +118,7 @@ std::optional<Witness> findWitness(const core::Ellipsoid& ellipsoid, const core:
                                    const Camera& camera) {
     const std::array<core::Plane, 4> planes = camera.planes();
     const auto depth = [&](const Shares& shares) { return depthOf(ellipsoid.toEcef(positionIn(bin, shares)), planes); };
-    const Best best = deepest(depth, 3);
+    const auto best = deepest(depth, 3);
     if (!(best.depth > 0.0)) return std::nullopt;
     return Witness{positionIn(bin, best.shares), best.depth};
 }
@@ -150,14 +130,12 @@ std::optional<Witness> findTerrainWitness(Terrain& terrain, const core::Geodetic
         if (!isInSight(terrain.ellipsoid(), camera.eye, point)) return -std::numeric_limits<double>::infinity();
         return depthOf(point, planes);
     };
-    const Best best = deepest(depth, 2);
+    const auto best = deepest(depth, 2);
     if (!(best.depth > 0.0)) return std::nullopt;
     return Witness{terrain.onSurface(positionIn(bin, best.shares)), best.depth};
 }
 
 namespace {
-
-using support::kPi;
 
 // From the eye to the nearest position of the bin by latitude, longitude and altitude: close enough for a level of
 // detail.
@@ -165,14 +143,14 @@ double distanceTo(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid
                   const glm::dvec3& eyeEcef) {
     const double middle = bin.longitude().middle();
     const double half = 0.5 * bin.longitude().width();
-    const double east = std::remainder(eye.longitude - middle, 2.0 * kPi);
+    const double east = std::remainder(eye.longitude - middle, glm::two_pi<double>());
     const core::Geodetic nearest{std::clamp(eye.latitude, bin.latitude().lower, bin.latitude().upper),
                                  middle + std::clamp(east, -half, half),
                                  std::clamp(eye.altitude, bin.altitude().lower, bin.altitude().upper)};
     return glm::distance(ellipsoid.toEcef(nearest), eyeEcef);
 }
 
-void divide(std::vector<TreeTile>& tiles, const Terrain& terrain, const Camera& camera) {
+void divide(std::vector<TreeTile>& tiles, Terrain& terrain, const Camera& camera) {
     constexpr double kWidths = 3.0;
     const core::Geodetic eye = terrain.ellipsoid().toGeodetic(camera.eye);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -202,35 +180,26 @@ void judge(std::vector<TreeTile>& tiles, const Terrain& terrain, const Camera& c
     }
 }
 
-void keepAllBelow(const TileTree& tree, std::size_t tile, std::vector<Verdict>& verdicts) {
-    if (tree.tiles[tile].isLeaf()) return;
-    for (std::size_t child = tree.tiles[tile].firstChild; child < tree.tiles[tile].firstChild + 4; ++child) {
-        verdicts[child] = Verdict::WithinInside;
-        keepAllBelow(tree, child, verdicts);
-    }
-}
-
-void cullTile(const TileTree& tree, Method method, const Frustum& frustum, std::size_t tile,
+void cullTile(const TileTree& tree, Method method, const Frustum& frustum, std::size_t tile, bool isWithinInside,
               std::vector<Verdict>& verdicts) {
-    switch (tree.tiles[tile].bins.classify(method, frustum)) {
-        case core::Side::Outside:
-            verdicts[tile] = Verdict::Outside;
-            return;
-        case core::Side::Inside:
-            verdicts[tile] = Verdict::Inside;
-            return keepAllBelow(tree, tile, verdicts);
-        case core::Side::Straddling:
-            break;
+    Verdict& verdict = verdicts[tile];
+    if (isWithinInside) {
+        verdict = Verdict::WithinInside;
+    } else {
+        const Side side = tree.tiles[tile].bins.classify(method, frustum);
+        verdict = side == Side::Outside  ? Verdict::Outside
+                  : side == Side::Inside ? Verdict::Inside
+                                         : Verdict::Straddling;
     }
-    verdicts[tile] = Verdict::Straddling;
-    if (tree.tiles[tile].isLeaf()) return;
+    if (verdict == Verdict::Outside || tree.tiles[tile].isLeaf()) return;
     const std::size_t first = tree.tiles[tile].firstChild;
-    for (std::size_t child = first; child < first + 4; ++child) cullTile(tree, method, frustum, child, verdicts);
+    for (std::size_t child = first; child < first + 4; ++child)
+        cullTile(tree, method, frustum, child, verdict != Verdict::Straddling, verdicts);
 }
 
 }  // namespace
 
-TileTree::TileTree(const Terrain& terrain, const Camera& camera) {
+TileTree::TileTree(Terrain& terrain, const Camera& camera) {
     for (int y = 0; y < TileId::kStartRows; ++y)
         for (int x = 0; x < TileId::kStartColumns; ++x) tiles.emplace_back(terrain, TileId{0, x, y});
     divide(tiles, terrain, camera);
@@ -240,7 +209,7 @@ TileTree::TileTree(const Terrain& terrain, const Camera& camera) {
 std::vector<Verdict> cull(const TileTree& tree, const Frustum& frustum, Method method) {
     std::vector<Verdict> verdicts(tree.tiles.size(), Verdict::Untested);
     for (std::size_t start = 0; start < TileTree::kStartTiles; ++start)
-        cullTile(tree, method, frustum, start, verdicts);
+        cullTile(tree, method, frustum, start, false, verdicts);
     return verdicts;
 }
 

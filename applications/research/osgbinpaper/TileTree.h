@@ -66,8 +66,7 @@ struct Witness {
 /// The position at shares, from 0 to 1, of a bin's latitudes, longitudes and altitudes.
 [[nodiscard]] core::Geodetic positionIn(const core::GeodeticBin& bin, const glm::dvec3& shares) noexcept;
 
-/// Looks for the point of the bin that is deepest inside the frustum: a grid of samples, then ever smaller steps from
-/// the best.
+/// Looks for the point of the bin that is deepest inside the frustum.
 /// Returns: nullopt when no sample is inside; a thin piece of the bin may have been missed.
 [[nodiscard]] std::optional<Witness> findWitness(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
                                                  const Camera& camera);
@@ -80,8 +79,7 @@ struct Witness {
 struct TreeTile {
     static constexpr std::size_t kNone = 0;
 
-    TreeTile(const Terrain& terrain, const TileId& tile)
-        : id(tile), box(terrain.bin(tile)), bins(terrain.ellipsoid(), box) {}
+    TreeTile(Terrain& terrain, const TileId& tile) : id(tile), box(terrain.bin(tile)), bins(terrain.ellipsoid(), box) {}
 
     TileId id;
     core::GeodeticBin box;
@@ -98,7 +96,7 @@ struct TreeTile {
 struct TileTree {
     static constexpr std::size_t kStartTiles = 128;
 
-    TileTree(const Terrain& terrain, const Camera& camera);
+    TileTree(Terrain& terrain, const Camera& camera);
 
     std::vector<TreeTile> tiles;  // the start tiles first, parents before children
 };

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -74,16 +75,11 @@ Axes eastNorthUp(const core::Ellipsoid& ellipsoid, const core::Geodetic& positio
             glm::dvec3(cosine * radial.x, cosine * radial.y, sine)};
 }
 
-core::ParameterBox grown(const core::ParameterBox& box, double factor) {
-    return {box.center, box.halfSize * factor};
-}
-
 // A plane with a number that is not finite decides nothing.
-core::Side sideOf(const core::Plane& plane, double lowest, double highest) {
+core::Side sideOf(const core::Plane& plane, const core::Interval& distances) {
     if (std::isnan(core::roundingOf(plane))) return core::Side::Straddling;
-    if (highest < 0.0) return core::Side::Outside;
-    if (lowest >= 0.0) return core::Side::Inside;
-    return core::Side::Straddling;
+    if (distances.upper < 0.0) return core::Side::Outside;
+    return distances.lower >= 0.0 ? core::Side::Inside : core::Side::Straddling;
 }
 
 // Corner i of the unit cube: bit k of i chooses the sign of coordinate k.
@@ -96,10 +92,6 @@ glm::dvec3 stationaryPoint(const core::Quadratic& q) {
     const auto& h = q.hessian;
     const glm::dmat3 matrix(h[0], h[3], h[4], h[3], h[1], h[5], h[4], h[5], h[2]);
     return -(glm::inverse(matrix) * glm::dvec3(q.gradient[0], q.gradient[1], q.gradient[2]));
-}
-
-bool inUnitBox(const glm::dvec3& x) {
-    return std::abs(x.x) <= 1.0 && std::abs(x.y) <= 1.0 && std::abs(x.z) <= 1.0;
 }
 
 namespace row = core::row;
@@ -151,21 +143,17 @@ OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::Geo
     : Box(eastNorthUp(ellipsoid, bin.center()), ellipsoid, bin, margin) {}
 
 PaperBin::PaperBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box, double growth) noexcept
-    : _model(mapping, grown(box, growth)) {}
+    : _model(mapping, {box.center, box.halfSize * growth}) {}
 
 core::Side PaperBin::classify(const core::Plane& plane) const noexcept {
     const core::Quadratic q = _model.distanceModel(plane);
-    double lowest = q(-1.0, -1.0, -1.0);
-    double highest = lowest;
-    const auto take = [&](const glm::dvec3& x) {
-        const double value = q(x.x, x.y, x.z);
-        lowest = value < lowest ? value : lowest;
-        highest = value > highest ? value : highest;
-    };
-    for (std::size_t i = 1; i < 8; ++i) take(unitCorner(i));
+    core::Interval distances = core::Interval::none();
+    const auto take = [&](const glm::dvec3& x) { distances.expandBy(q(x.x, x.y, x.z)); };
+    for (std::size_t i = 0; i < 8; ++i) take(unitCorner(i));
     const glm::dvec3 stationary = stationaryPoint(q);
-    if (inUnitBox(stationary)) take(stationary);  // [JJ] section 3: the ninth point
-    return sideOf(plane, lowest, highest);
+    // [JJ] section 3: the ninth point
+    if (glm::all(glm::lessThanEqual(glm::abs(stationary), glm::dvec3(1.0)))) take(stationary);
+    return sideOf(plane, distances);
 }
 
 CornersBin::CornersBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box) noexcept : _corners() {
@@ -173,14 +161,9 @@ CornersBin::CornersBin(const core::AnalyticMapping& mapping, const core::Paramet
 }
 
 core::Side CornersBin::classify(const core::Plane& plane) const noexcept {
-    double lowest = plane.distance(_corners[0]);
-    double highest = lowest;
-    for (std::size_t i = 1; i < 8; ++i) {
-        const double value = plane.distance(_corners[i]);
-        lowest = value < lowest ? value : lowest;
-        highest = value > highest ? value : highest;
-    }
-    return sideOf(plane, lowest, highest);
+    core::Interval distances = core::Interval::none();
+    for (const glm::dvec3& corner : _corners) distances.expandBy(plane.distance(corner));
+    return sideOf(plane, distances);
 }
 
 HorizonPoint::HorizonPoint(const core::HorizonBin& bin) noexcept {

@@ -106,17 +106,10 @@ RivalCullCallback::RivalCullCallback(AnalyticBinCullCallback& tile, const RivalO
 
 RivalCullCallback::RivalBin RivalCullCallback::rivalBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid,
                                                         const RivalOptions& options) {
-    const core::ParameterBox box = core::parameterBox(bin.bin());
-    switch (options.rule) {
-        case Rule::Paper:
-            return PaperBin(core::GeodeticMapping(ellipsoid), box);
-        case Rule::Corners:
-            return CornersBin(core::GeodeticMapping(ellipsoid), box);
-        case Rule::Box:
-            return BoxBin(ellipsoid, bin.bin(), bin.margin());
-        case Rule::OrientedBox:
-            break;
-    }
+    const core::GeodeticMapping mapping(ellipsoid);
+    if (options.rule == Rule::Paper) return PaperBin(mapping, core::parameterBox(bin.bin()));
+    if (options.rule == Rule::Corners) return CornersBin(mapping, core::parameterBox(bin.bin()));
+    if (options.rule == Rule::Box) return BoxBin(ellipsoid, bin.bin(), bin.margin());
     return OrientedBoxBin(ellipsoid, bin.bin(), bin.margin());
 }
 

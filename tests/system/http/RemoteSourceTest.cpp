@@ -5,8 +5,8 @@
 // disk, and the server's own count of what it sent.
 
 #include "Nginx.h"
+#include "TestRaster.h"
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,31 +21,21 @@ namespace fs = std::filesystem;
 using test::Nginx;
 using test::quoted;
 
-constexpr int kColumns = 3600;
-constexpr int kRows = 1800;
-
 /// Rough heights, a post each tenth of a degree, as a Cloud Optimized GeoTIFF with overviews.
 void writeCloudOptimized(const std::string& path) {
-    GDALAllRegister();
-    GDALDriverManager& drivers = *GetGDALDriverManager();
-    GDALDataset* memory = drivers.GetDriverByName("MEM")->Create("", kColumns, kRows, 1, GDT_Int16, nullptr);
-    double transform[6] = {-180.0, 0.1, 0.0, 90.0, 0.0, -0.1};
-    memory->SetGeoTransform(transform);
-    memory->SetProjection(SRS_WKT_WGS84_LAT_LONG);
-    std::vector<std::int16_t> heights;
+    constexpr int kColumns = 3600, kRows = 1800;
+    const OpenRaster memory("/vsimem/rough.tif", {kColumns, kRows, 1}, GDT_Int16, -180.0, 90.0, 0.1, 0.1);
+    std::vector<double> heights;
     std::uint32_t state = 1;
     for (int i = 0; i < kColumns * kRows; ++i) {
         state = state * 1664525U + 1013904223U;
-        heights.push_back(static_cast<std::int16_t>(state >> 22));
+        heights.push_back(state >> 22);
     }
-    ASSERT_EQ(memory->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows,
-                                                 GDT_Int16, 0, 0, nullptr),
-              CE_None);
-    GDALDataset* file =
-        drivers.GetDriverByName("COG")->CreateCopy(path.c_str(), memory, FALSE, nullptr, nullptr, nullptr);
+    OpenRaster::write(memory.band(), heights);
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
+    GDALDataset* const file = driver->CreateCopy(path.c_str(), memory.operator->(), FALSE, nullptr, nullptr, nullptr);
     ASSERT_NE(file, nullptr);
     GDALClose(GDALDataset::ToHandle(file));
-    GDALClose(GDALDataset::ToHandle(memory));
 }
 
 std::size_t bytesSent(const Nginx& server) {

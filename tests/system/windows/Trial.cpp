@@ -15,7 +15,6 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Group>
-#include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
@@ -25,6 +24,7 @@
 #include <stdexcept>
 #include <string>
 #include <support/SyntheticDatabase.h>
+#include <support/VisitNodes.h>
 
 namespace {
 
@@ -37,20 +37,12 @@ osg::ref_ptr<osg::Node> read(const std::string& file) {
 }
 
 // Counts nodes whose cull callback is a bin's.
-class BinCounter : public osg::NodeVisitor {
-public:
-    BinCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        if (dynamic_cast<const AnalyticBinCullCallback*>(node.getCullCallback())) ++bins;
-        traverse(node);
-    }
-    unsigned int bins = 0;
-};
-
 unsigned int binsOf(osg::Node& scene) {
-    BinCounter counter;
-    scene.accept(counter);
-    return counter.bins;
+    unsigned int bins = 0;
+    test::visitNodes(scene, [&bins](osg::Node& node) {
+        if (dynamic_cast<const AnalyticBinCullCallback*>(node.getCullCallback())) ++bins;
+    });
+    return bins;
 }
 
 void openDatabase(const std::string& folder) {

@@ -33,10 +33,16 @@ void expectVerdictOf(const Bin& bin, const FamilyCase& c, const FamilyVerdict& v
     ++seen.sides[static_cast<std::size_t>(side)];
 }
 
-void expectVerdictsOfItsBins(const FamilyCase& c, Seen& seen) {
+FamilyVerdict verdictOf(const BinFamily& family, const PlaneSet& planes, PlaneMask undecided) {
     FamilyVerdict verdict{};
-    c.family.classify(c.planes, c.undecided, verdict);
+    family.classify(planes, undecided, verdict);
+    return verdict;
+}
+
+void expectVerdictsOfItsBins(const FamilyCase& c, Seen& seen) {
+    const FamilyVerdict verdict = verdictOf(c.family, c.planes, c.undecided);
     for (std::size_t i = 0; i < c.slots.size(); ++i) {
+        ASSERT_EQ(has(c.family.filled(), i), c.slots[i].kind != SlotKind::Empty);
         switch (c.slots[i].kind) {
             case SlotKind::Either:
                 std::visit([&](const auto& form) { expectVerdictOf(form, c, verdict, i, seen); }, c.slots[i].either);
@@ -70,12 +76,6 @@ void expectHorizonOfItsBins(const FamilyCase& c, Seen& seen) {
         ASSERT_EQ(has(hidden, i), expected);
         ++(expected ? seen.hidden : seen.shown);
     }
-}
-
-FamilyVerdict verdictOf(const BinFamily& family, const PlaneSet& planes, PlaneMask undecided) {
-    FamilyVerdict verdict{};
-    family.classify(planes, undecided, verdict);
-    return verdict;
 }
 
 // A slot's reach from the origin is rounded up: a proof that is within rounding could be missed, but no trial comes so
@@ -141,71 +141,9 @@ TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
 
 #endif
 
-TEST(BinFamily, SlotsWithoutABinAreNeverDecided) {
-    const HorizonBin horizon(wgs84(), kOneDegree);
-    BinFamily family(5);
-    family.set(1, ExactGeodeticBin(wgs84(), kOneDegree));
-    family.setHorizon(1, horizon);
-    family.setHorizon(2, horizon);
-    const auto eye = HorizonEye::fromEye(wgs84(), 0.0, {-1e8, 0.0, 0.0});
-    ASSERT_TRUE(eye);
-    EXPECT_EQ(family.filled(), 0b10u);
-    EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0b10u);
-    for (const double offset : {-1e9, 1e9, kNaN}) {
-        const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, offset}});
-        const FamilyVerdict verdict = verdictOf(family, planes, planes.all());
-        EXPECT_EQ(verdict.outside, offset < 0.0 ? 0b10u : 0u);
-        EXPECT_EQ(verdict.insideAll, offset > 0.0 ? 0b10u : 0u);
-        for (const std::size_t i : {0u, 2u, 3u, 4u}) EXPECT_EQ(verdict.undecided[i], planes.all());
-    }
-    family.clear(1);
-    const PlaneSet away = setOf({{{1.0, 0.0, 0.0}, -1e9}});
-    EXPECT_EQ(family.filled(), 0u);
-    EXPECT_EQ(verdictOf(family, away, away.all()).outside, 0u);
-    EXPECT_EQ(verdictOf(family, away, away.all()).undecided[1], away.all());
-    EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0u);
-}
-
-TEST(BinFamily, ABinThatIsSetAgainIsTheNewOne) {
-    const ExactGeodeticBin wide(wgs84(), GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0}));
-    BinFamily family(1);
-    family.set(0, wide);
-    family.set(0, QuadraticBin(GeodeticMapping(wgs84()), core::parameterBox(kOneDegree)));
-    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, -6.3e6}});  // only the small one is wholly beyond
-    EXPECT_EQ(verdictOf(family, planes, 1).insideAll, 1u);
-    family.set(0, wide);
-    EXPECT_EQ(verdictOf(family, planes, 1).insideAll, 0u);
-}
-
-TEST(BinFamily, CopiesHaveNumbersOfTheirOwn) {
-    const ExactGeodeticBin bin(wgs84(), kOneDegree);
-    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, -1e9}});
-    const auto outside = [&](const BinFamily& family) { return verdictOf(family, planes, 1).outside; };
-    BinFamily family(2);
-    family.set(1, bin);
-    BinFamily copy(family);
-    BinFamily assigned(1);
-    assigned = family;
-    family.clear(1);
-    EXPECT_EQ(outside(family), 0u);
-    EXPECT_EQ(outside(copy), 0b10u);
-    EXPECT_EQ(outside(assigned), 0b10u);
-    copy.clear(1);
-    assigned.set(0, bin);
-    EXPECT_EQ(outside(copy), 0u);
-    EXPECT_EQ(outside(assigned), 0b11u);
-    const BinFamily moved(std::move(assigned));
-    EXPECT_EQ(outside(moved), 0b11u);
-}
-
-TEST(BinFamily, MayHaveNoSlotAndNoPlane) {
+TEST(BinFamily, MayHaveNoSlot) {
     EXPECT_EQ(verdictOf(BinFamily(0), PlaneSet(), 0).outside, 0u);
     EXPECT_EQ(verdictOf(BinFamily(0), PlaneSet(), 0).insideAll, 0u);
-    BinFamily one(1);
-    one.set(0, ExactGeodeticBin(wgs84(), kOneDegree));
-    EXPECT_EQ(verdictOf(one, PlaneSet(), 0).insideAll, 1u);
-    EXPECT_EQ(verdictOf(one, PlaneSet(), 0b10).insideAll, 0u);
-    EXPECT_EQ(verdictOf(one, PlaneSet(), 0b10).undecided[0], 0b10u);
 }
 
 }  // namespace

@@ -60,6 +60,18 @@ inline PlaneSet setOf(std::initializer_list<Plane> planes) {
     return set;
 }
 
+inline double smaller(const Ellipsoid& e) {
+    return std::min(e.equatorialRadius(), e.polarRadius());
+}
+
+inline double larger(const Ellipsoid& e) {
+    return std::max(e.equatorialRadius(), e.polarRadius());
+}
+
+inline double smallestCurvatureRadius(const Ellipsoid& e) {
+    return smaller(e) * smaller(e) / larger(e);
+}
+
 /// At this place, turned at random.
 inline core::Frame randomFrame(Random& random, const glm::dvec3& origin) {
     core::Frame frame{origin, random.direction(), {}, {}};

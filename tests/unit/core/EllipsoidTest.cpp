@@ -54,27 +54,19 @@ Ellipsoid flatOrLong(Random& random) {
 }
 
 double largestCurvatureRadius(const Ellipsoid& ellipsoid) {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    return std::max({a, a * a / b, b * b / a});
-}
-
-double smallestCurvatureRadius(const Ellipsoid& ellipsoid) {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    return std::min(a * a / b, b * b / a);
+    return larger(ellipsoid) * larger(ellipsoid) / smaller(ellipsoid);
 }
 
 TEST(Ellipsoid, ConvertsLikeLongDouble) {
     Random random(14);
     for (int trial = 0; trial < 100000; ++trial) {
         const Ellipsoid ellipsoid = flatOrLong(random);
-        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const double most = larger(ellipsoid);
         const double latitude = random.sign() * (random.chance(0.5) ? random.uniform(0.0, kHalfPi)
                                                                     : kHalfPi - random.logUniform(1e-9, 1.0));
-        const Geodetic position{latitude, random.uniform(-kPi, kPi), random.uniform(-1.0, 1.0) * larger};
+        const Geodetic position{latitude, random.uniform(-kPi, kPi), random.uniform(-1.0, 1.0) * most};
         ASSERT_LE(distanceBetween(ellipsoid.toEcef(position), geodeticToEcef(ellipsoid, position)),
-                  kMappingRounding * (larger + std::abs(position.altitude)));
+                  kMappingRounding * (most + std::abs(position.altitude)));
     }
 }
 
@@ -83,24 +75,22 @@ TEST(Ellipsoid, ReturnsToTheSamePointOnDisksAndNeedles) {
     double worst = 0.0;
     for (int trial = 0; trial < 200000; ++trial) {
         const Ellipsoid ellipsoid = flatOrLong(random);
-        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const double most = larger(ellipsoid);
         glm::dvec3 point = random.direction();
-        if (random.chance(0.5))
-            point *= glm::dvec3(ellipsoid.equatorialRadius(), 1.0, ellipsoid.polarRadius()) / larger;
+        if (random.chance(0.5)) point *= glm::dvec3(ellipsoid.equatorialRadius(), 1.0, ellipsoid.polarRadius()) / most;
         if (random.chance(0.1)) point.z *= random.logUniform(1e-300, 1.0);
         if (random.chance(0.1)) point *= glm::dvec3(random.logUniform(1e-300, 1.0), 1e-300, 1.0);
         if (random.chance(0.1)) point[random.integer(0, 2)] = 0.0;
-        point *= larger * (random.chance(0.5) ? random.uniform(0.0, 1.5) : random.logUniform(1e-12, 1e3));
+        point *= most * (random.chance(0.5) ? random.uniform(0.0, 1.5) : random.logUniform(1e-12, 1e3));
         const Geodetic position = ellipsoid.toGeodetic(point);
         ASSERT_LE(std::abs(position.latitude), kHalfPi);
         ASSERT_LE(std::abs(position.longitude), kPi);
         const double error = distanceBetween(point, geodeticToEcef(ellipsoid, position));
         worst = std::max(worst, error / (largestCurvatureRadius(ellipsoid) + glm::length(point)));
         // the nearest point of the surface is as far away as the surface is deep there
-        const glm::dvec3 onSurface =
-            larger * random.direction() *
-            glm::dvec3(ellipsoid.equatorialRadius() / larger, ellipsoid.equatorialRadius() / larger,
-                       ellipsoid.polarRadius() / larger);
+        const glm::dvec3 onSurface = most * random.direction() *
+                                     glm::dvec3(ellipsoid.equatorialRadius() / most,
+                                                ellipsoid.equatorialRadius() / most, ellipsoid.polarRadius() / most);
         ASSERT_LE(std::abs(position.altitude), glm::distance(point, onSurface) * (1.0 + 1e-12) + 1e-8) << trial;
     }
     std::printf("round trip from disks to needles: %.2g of the distance and the largest radius of curvature\n", worst);

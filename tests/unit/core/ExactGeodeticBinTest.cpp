@@ -23,8 +23,8 @@ ExactGeodeticBin exact(const PlaneCase& c) {
 // What a few roundings of coordinates and offset come to, in metres.
 double tolerance(const PlaneCase& c) {
     const Interval& altitude = c.oracle.bin().altitude();
-    const double magnitude = std::max(c.oracle.ellipsoid().equatorialRadius(), c.oracle.ellipsoid().polarRadius()) +
-                             std::max(std::abs(altitude.lower), std::abs(altitude.upper));
+    const double magnitude =
+        larger(c.oracle.ellipsoid()) + std::max(std::abs(altitude.lower), std::abs(altitude.upper));
     return kTightness * (magnitude + std::abs(c.plane.offset));
 }
 
@@ -144,9 +144,7 @@ TEST(ExactGeodeticBin, HoldsDownToTheCentresOfCurvature) {
         const Ellipsoid ellipsoid = random.chance(0.5)
                                         ? randomEllipsoid(random)
                                         : Ellipsoid(6378137.0, 6378137.0 * random.logUniform(0.01, 10.0));
-        const double a = ellipsoid.equatorialRadius();
-        const double b = ellipsoid.polarRadius();
-        const double smallest = std::min(a * a / b, b * b / a);
+        const double smallest = smallestCurvatureRadius(ellipsoid);
         const double low = -smallest * (1.0 - random.logUniform(1e-16, 1.0));
         const double high = low + (random.chance(0.3) ? random.logUniform(1e-9, 1.0) : random.uniform()) * smallest;
         const GeodeticBin bin = randomBin(random).withAltitude({low, high});

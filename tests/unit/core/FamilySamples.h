@@ -38,7 +38,8 @@ inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracle
     }
 }
 
-/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, slots are empty or cleared.
+/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, slots are empty or cleared,
+/// and the family may be a copy.
 struct FamilyCase {
     explicit FamilyCase(Random& random)
         : ellipsoid(randomEllipsoid(random)),
@@ -53,6 +54,12 @@ struct FamilyCase {
             constexpr std::array<SlotKind, 4> kKinds{SlotKind::Either, SlotKind::Exact, SlotKind::Quadratic,
                                                      SlotKind::Empty};
             addSlot(random, oracles.back().bin(), i, isMixed ? random.pick(kKinds) : common);
+        }
+        if (random.chance(0.2)) {
+            // a copy has numbers of its own
+            const core::BinFamily copy(family);
+            for (std::size_t i = 0; i < family.size(); ++i) family.clear(i);
+            family = copy;
         }
         addRandomPlanes(random, oracles, planes);
         undecided = random.chance(0.5) ? planes.all() : static_cast<core::PlaneMask>(random.bits());
@@ -89,6 +96,10 @@ private:
         // What was in the slot before must not matter.
         if (random.chance(0.2)) family.set(i, slot.exact);
         if (random.chance(0.2)) family.set(i, slot.quadratic);
+        if (random.chance(0.2)) {
+            family.setHorizon(i, slot.horizon);
+            family.clear(i);
+        }
         if (kind == SlotKind::Empty && (random.chance(0.5) || family.filled() != 0)) family.clear(i);
         if (kind == SlotKind::Either) std::visit([&](const auto& form) { family.set(i, form); }, slot.either);
         if (kind == SlotKind::Exact) family.set(i, slot.exact);

@@ -7,33 +7,21 @@
 
 #include "CoreTest.h"
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::test {
 namespace {
 
-using test::Random;
-using test::Real;
-using test::RealVector;
+using core::kFewestCells;
 
-constexpr double kPi = 3.14159265358979323846;
-
-const Ellipsoid kEarth(6378137.0, 6356752.3142);
+const Ellipsoid kEarth = wgs84();
 
 // The earth first; in other units: PlanetMeshesTest.cpp.
 const std::vector<Ellipsoid>& ellipsoids() {
     static const std::vector<Ellipsoid> all = [] {
         std::vector<Ellipsoid> list{kEarth, Ellipsoid(6371000.0, 6371000.0), Ellipsoid(6378137.0, 6420000.0)};
-        for (const test::Planet& planet : test::kPlanets) list.push_back(planet.in(1.0));
+        for (const Planet& planet : kPlanets) list.push_back(planet.in(1.0));
         return list;
     }();
     return all;
-}
-
-double smaller(const Ellipsoid& e) {
-    return std::min(e.equatorialRadius(), e.polarRadius());
-}
-
-double larger(const Ellipsoid& e) {
-    return std::max(e.equatorialRadius(), e.polarRadius());
 }
 
 // 10 micrometres on the earth.
@@ -70,7 +58,7 @@ struct Tile {
 };
 
 RealVector post(const Ellipsoid& ellipsoid, double latitude, double longitude, double altitude) {
-    return test::geodeticToEcef(ellipsoid, Real{latitude}, Real{longitude}, Real{altitude});
+    return geodeticToEcef(ellipsoid, Real{latitude}, Real{longitude}, Real{altitude});
 }
 
 RealVector mixed(const RealVector& p, const RealVector& q, Real share) {
@@ -78,7 +66,7 @@ RealVector mixed(const RealVector& p, const RealVector& q, Real share) {
 }
 
 double altitudeOf(const Ellipsoid& ellipsoid, const RealVector& point) {
-    return static_cast<double>(test::ecefToGeodetic(ellipsoid, point).altitude);
+    return static_cast<double>(ecefToGeodetic(ellipsoid, point).altitude);
 }
 
 // A number of cells that a mesh may have along an edge: the fewest, often.
@@ -230,4 +218,4 @@ TEST(FinerMeshes, FinerMeshesNearlyDipAsDeep) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::test

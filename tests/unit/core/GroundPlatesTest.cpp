@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::array<std::size_t, 4> kGrids{1, 2, 4, 8};
 
-const GeodeticBin kHills({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
-
 GeodeticBin randomExtentsInMap(Random& random) {
     constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
     const double height = random.logUniform(1.0, 1e6), width = height * random.uniform(0.3, 3.0);
@@ -239,18 +237,6 @@ TEST(GroundPlates, ColumnsOfFinerCellsAreThoseThatStandOut) {
     }
 }
 
-// A grid of posts, and the altitudes that gridMesh() gave to them.
-struct Posts {
-    core::GeodeticGrid grid;
-    std::vector<double> altitudes;
-
-    Posts(const Ellipsoid& ellipsoid, const GeodeticBin& extents, const EcefMesh& mesh, std::size_t cells)
-        : grid{extents.latitude(), extents.longitude(), cells + 1, cells + 1} {
-        for (std::size_t i = 0; i < mesh.size(); ++i)
-            altitudes.push_back(ellipsoid.toGeodetic(mesh.vertex(i)).altitude);
-    }
-};
-
 TEST(GroundPlates, ColumnsOfAGridLieBelowTheMeshWithEitherDiagonal) {
     Random random(1712);
     int known = 0;
@@ -259,13 +245,13 @@ TEST(GroundPlates, ColumnsOfAGridLieBelowTheMeshWithEitherDiagonal) {
         const GeodeticBin extents = randomExtents(random, ellipsoid);
         const auto cells = static_cast<std::uint32_t>(random.integer(2, 24));
         EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
-        const Posts posts(ellipsoid, extents, mesh, cells);
         // drawn a little beside its place
         const double room = random.uniform(0.0, 1e-4) * extents.latitude().width() * ellipsoid.polarRadius();
         const double margin = random.chance(0.5) ? room : 0.0;
         const glm::dvec3 aside = margin * random.direction();
+        const GroundPlates plates = gridPlatesOf(ellipsoid, mesh, extents, cells, margin);
         for (std::size_t i = 0; i < mesh.size(); ++i) moveVertex(mesh, i, aside);
-        expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, posts.grid, posts.altitudes, margin), known);
+        expectBelow(random, ellipsoid, mesh, plates, known);
     }
     EXPECT_GT(known, 300 * 30);
 }
@@ -280,10 +266,9 @@ TEST(GroundPlates, OfAGridAreThoseOfItsMesh) {
         const GeodeticBin extents({south, south + size}, {1.0, 1.0 + size}, {-20.0, 30.0});
         const auto cells = static_cast<std::uint32_t>(random.integer(8, 64));
         const EcefMesh mesh = gridMesh(random, earth, extents, cells);
-        const Posts posts(earth, extents, mesh, cells);
         // without vertices in common it is not known to be a grid
         const GroundPlates ofMesh = platesOf(earth, unmerged(mesh), extents),
-                           ofGrid(earth, posts.grid, posts.altitudes);
+                           ofGrid = gridPlatesOf(earth, mesh, extents, cells);
         const double spacing = size / cells * 6.4e6;
         for (const std::size_t side : kGrids) {
             for (std::size_t i = 0; i < side * side; ++i) {

@@ -184,15 +184,14 @@ TEST(Horizon, OccluderLiesBelowTheParallelSurface) {
     for (int trial = 0; trial < 20000; ++trial) {
         const Ellipsoid ellipsoid = randomEllipsoid(random);
         const double depth = random.uniform(-9000.0, 60000.0);
-        const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-        const Real scale = 1 - static_cast<Real>(depth) / (depth >= 0.0 ? smaller : larger);
+        const double least = smaller(ellipsoid), most = larger(ellipsoid);
+        const Real scale = 1 - static_cast<Real>(depth) / (depth >= 0.0 ? least : most);
         const RealVector surface =
             geodeticToEcef(ellipsoid, random.uniform(-kHalfPi, kHalfPi), random.uniform(-kPi, kPi), 0);
         const RealGeodetic position = ecefToGeodetic(ellipsoid, scale * surface);
         ASSERT_LE(position.altitude, -depth + 1e-6) << depth;
         // and it is no smaller than it has to be
-        ASSERT_GE(position.altitude, -depth * (depth > 0.0 ? larger / smaller : smaller / larger) - 1e-6);
+        ASSERT_GE(position.altitude, -depth * (depth > 0.0 ? most / least : least / most) - 1e-6);
     }
 }
 

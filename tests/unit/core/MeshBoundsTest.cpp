@@ -14,21 +14,10 @@ namespace {
 
 constexpr double kAxisTolerance = 1.0;
 
-GeodeticBin randomExtents(Random& random) {
-    const double size = random.logUniform(1e-5, 0.8);
-    const double south = random.chance(0.1)   ? -kHalfPi
-                         : random.chance(0.1) ? kHalfPi - size
-                                              : random.uniform(-kHalfPi, kHalfPi - size);
-    const double west = random.uniform(-kPi, kPi);
-    const double low = random.uniform(-11000.0, 8000.0);
-    return GeodeticBin({south, south + size}, {west, west + size * random.uniform(0.5, 2.0)},
-                       {low, random.chance(0.3) ? low : random.uniform(low, 9000.0)});
-}
-
 TEST(MeshBounds, IsHardlyLooserThanTheThoroughBounds) {
     Random random(192);
     for (int trial = 0; trial < 1000; ++trial) {
-        const GeodeticBin anyExtents = randomExtents(random);
+        const GeodeticBin anyExtents = randomExtents(random, wgs84(), 0.8, 0.0015);
         const auto cells = static_cast<std::uint32_t>(random.integer(8, 16));
         const double step = anyExtents.latitude().width() * 2.0 / cells;
         // no steeper than terrain is: a chord that climbs is taken for one along the ground
@@ -112,55 +101,54 @@ TEST(GeodeticGridBounds, IsKnownOnPlanetsLikeTheEarth) {
     grid.rows = 4;
     for (const Planet& planet : kPlanets) {
         const Ellipsoid ellipsoid = planet.in(1.0);
-        const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
         const bool isEarthLike = std::abs(ellipsoid.eccentricitySquared()) < 0.1;
-        for (const double reach : {0.0, 0.0999 * smaller})
+        for (const double reach : {0.0, 0.0999 * smaller(ellipsoid)})
             EXPECT_EQ(GeodeticGridBounds(ellipsoid, grid, reach).isKnown(), isEarthLike) << planet;
-        EXPECT_FALSE(GeodeticGridBounds(ellipsoid, grid, 0.1001 * smaller).isKnown()) << planet;
+        EXPECT_FALSE(GeodeticGridBounds(ellipsoid, grid, 0.1001 * smaller(ellipsoid)).isKnown()) << planet;
     }
 }
 
-constexpr double kDegree = 0.017453292519943295;
-const core::Ellipsoid kEarth(6378137.0, 6356752.314245);
+constexpr double kDegree = kRadiansPerDegree;
+const Ellipsoid kEarth = wgs84();
 
-core::GeodeticBin extentsDeg(double south, double north, double west, double east) {
+GeodeticBin extentsDeg(double south, double north, double west, double east) {
     const double relief = std::min(1.0, north - south);
     return {{south * kDegree, north * kDegree}, {west * kDegree, east * kDegree}, {-400.0 * relief, 3000.0 * relief}};
 }
 
 // Poles, the date line, many turns around, tiles of any size, and the whole globe.
-const std::vector<core::GeodeticBin> kExtents{
+const std::vector<GeodeticBin> kExtents{
     extentsDeg(0.0, 45.0, 0.0, 45.0),      extentsDeg(45.0, 90.0, 90.0, 135.0),  extentsDeg(-90.0, -45.0, 0.0, 45.0),
     extentsDeg(-90.0, 90.0, -180.0, 0.0),  extentsDeg(-90.0, 90.0, 0.0, 180.0),  extentsDeg(-90.0, 90.0, -180.0, 180.0),
     extentsDeg(10.0, 11.0, 179.5, 180.5),  extentsDeg(47.0, 47.01, 8.0, 8.01),   extentsDeg(60.0, 90.0, -180.0, 180.0),
     extentsDeg(-20.0, 20.0, 170.0, 350.0), extentsDeg(-40.0, 30.0, -30.0, 170.0)};
 
-double tolerance(const core::Interval& interval) {
+double tolerance(const Interval& interval) {
     return 2.0 * core::MeshCover::kTolerance * interval.width();
 }
 
-void expectSame(const core::GeodeticBin& place, const core::GeodeticBin& extents) {
+void expectSame(const GeodeticBin& place, const GeodeticBin& extents) {
     ASSERT_FALSE(place.empty());
     EXPECT_NEAR(place.latitude().lower, extents.latitude().lower, tolerance(extents.latitude()));
     EXPECT_NEAR(place.latitude().upper, extents.latitude().upper, tolerance(extents.latitude()));
     EXPECT_NEAR(place.longitude().width(), extents.longitude().width(), tolerance(extents.longitude()));
-    const double turn = std::remainder(place.longitude().lower - extents.longitude().lower, 2.0 * 3.14159265358979);
+    const double turn = std::remainder(place.longitude().lower - extents.longitude().lower, 2.0 * kPi);
     EXPECT_NEAR(extents.isFullCircle() ? 0.0 : turn, 0.0, tolerance(extents.longitude()));
 }
 
-std::array<std::uint32_t, 3> cornersAt(const core::EcefMesh& mesh, std::size_t first) {
+std::array<std::uint32_t, 3> cornersAt(const EcefMesh& mesh, std::size_t first) {
     return {mesh.triangles[first], mesh.triangles[first + 1], mesh.triangles[first + 2]};
 }
 
-core::EcefMesh without(const core::EcefMesh& mesh, std::size_t first) {
-    core::EcefMesh less = mesh;
+EcefMesh without(const EcefMesh& mesh, std::size_t first) {
+    EcefMesh less = mesh;
     const auto at = less.triangles.begin() + static_cast<std::ptrdiff_t>(first);
     less.triangles.erase(at, at + 3);
     return less;
 }
 
 // Front faces less back faces on the normal through a place, far from edges by chance.
-int facesAt(const core::EcefMesh& mesh, const core::Geodetic& at) {
+int facesAt(const EcefMesh& mesh, const Geodetic& at) {
     const glm::dvec3 foot = kEarth.toEcef({at.latitude, at.longitude, 0.0}), up = kEarth.up(at.latitude, at.longitude);
     int count = 0;
     for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
@@ -181,10 +169,10 @@ int facesAt(const core::EcefMesh& mesh, const core::Geodetic& at) {
 
 TEST(MeshCover, IsThatOfAGridWithAndWithoutSkirts) {
     Random random(1);
-    for (const core::GeodeticBin& extents : kExtents) {
+    for (const GeodeticBin& extents : kExtents) {
         for (const std::uint32_t cells : {9U, 17U}) {
-            const core::EcefMesh grid = gridMesh(random, kEarth, extents, cells);
-            for (const core::EcefMesh& mesh : {grid, withSkirts(kEarth, grid, cells, 2000.0), unmerged(grid)}) {
+            const EcefMesh grid = gridMesh(random, kEarth, extents, cells);
+            for (const EcefMesh& mesh : {grid, withSkirts(kEarth, grid, cells, 2000.0), unmerged(grid)}) {
                 const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
                 EXPECT_TRUE(cover.isFilled) << extents.latitude().lower / kDegree << ' ' << cells;
                 expectSame(cover.place, extents);
@@ -195,10 +183,10 @@ TEST(MeshCover, IsThatOfAGridWithAndWithoutSkirts) {
 
 TEST(MeshCover, EndsWhereAVertexOfTheBorderIsWithinIt) {
     Random random(4);
-    const core::GeodeticBin extents = extentsDeg(10.0, 20.0, 30.0, 40.0);
+    const GeodeticBin extents = extentsDeg(10.0, 20.0, 30.0, 40.0);
     const double metre = 1.0 / 6335439.0;  // radians of latitude
     for (const double metres : {0.5, 5.0, 500.0, 20000.0}) {
-        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
+        EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
         moveVertex(mesh, 4, glm::dvec3(0.0, 0.0, metres));  // northward, into the place
         const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
         EXPECT_EQ(cover.isFilled, metres < 1000.0) << metres;
@@ -206,7 +194,7 @@ TEST(MeshCover, EndsWhereAVertexOfTheBorderIsWithinIt) {
         EXPECT_NEAR(cover.place.latitude().lower, extents.latitude().lower + 0.98 * metres * metre,
                     0.03 * metres * metre);
         // a vertex within does not matter
-        core::EcefMesh within = gridMesh(random, kEarth, extents, 9);
+        EcefMesh within = gridMesh(random, kEarth, extents, 9);
         moveVertex(within, 44, glm::dvec3(0.0, 0.0, metres));
         const core::MeshCover same = core::MeshCover::of(kEarth, within);
         EXPECT_TRUE(same.isFilled) << metres;
@@ -217,9 +205,9 @@ TEST(MeshCover, EndsWhereAVertexOfTheBorderIsWithinIt) {
 // Float vertices about the tile's middle.
 TEST(MeshCover, IsFilledByRoundedVertices) {
     Random random(5);
-    for (const core::GeodeticBin& extents : kExtents) {
-        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 16);
-        const core::Geodetic middle{extents.latitude().middle(), extents.longitude().middle(), 0.0};
+    for (const GeodeticBin& extents : kExtents) {
+        EcefMesh mesh = gridMesh(random, kEarth, extents, 16);
+        const Geodetic middle{extents.latitude().middle(), extents.longitude().middle(), 0.0};
         const glm::dvec3 origin = extents.isFullCircle() ? glm::dvec3(0.0) : kEarth.toEcef(middle);
         const auto rounded = [](double value, double about) {
             return about + static_cast<double>(static_cast<float>(value - about));
@@ -236,12 +224,12 @@ TEST(MeshCover, IsFilledByRoundedVertices) {
 }
 
 TEST(MeshCover, IsThatOfAMap) {
-    constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
+    constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
     Random random(7);
-    const core::Ellipsoid plane = core::Ellipsoid::plane();
-    const core::GeodeticBin extents({4600000.0 / kUnits, 4601000.0 / kUnits}, {500000.0 / kUnits, 501000.0 / kUnits},
-                                    {0.0, 60.0});
-    const core::EcefMesh mesh = gridMesh(random, plane, extents, 4);
+    const Ellipsoid plane = Ellipsoid::plane();
+    const GeodeticBin extents({4600000.0 / kUnits, 4601000.0 / kUnits}, {500000.0 / kUnits, 501000.0 / kUnits},
+                              {0.0, 60.0});
+    const EcefMesh mesh = gridMesh(random, plane, extents, 4);
     const core::MeshCover cover = core::MeshCover::of(plane, mesh);
     EXPECT_TRUE(cover.isFilled);
     EXPECT_NEAR(cover.place.longitude().width() * kUnits, 1000.0, 1e-3);
@@ -254,9 +242,9 @@ TEST(MeshCover, HasAFrontFaceOnEachNormalOfAFilledPlace) {
     Random random(6);
     int filled = 0;
     for (int trial = 0; trial < 1500; ++trial) {
-        const core::GeodeticBin& extents = kExtents[static_cast<std::size_t>(random.integer(0, 10))];
+        const GeodeticBin& extents = kExtents[static_cast<std::size_t>(random.integer(0, 10))];
         const auto cells = static_cast<std::uint32_t>(random.integer(8, 10));
-        core::EcefMesh mesh = gridMesh(random, kEarth, extents, cells);
+        EcefMesh mesh = gridMesh(random, kEarth, extents, cells);
         if (random.chance(0.5)) mesh = withSkirts(kEarth, mesh, cells, random.logUniform(10.0, 20000.0));
         for (int change = random.integer(0, 2); change > 0; --change) {
             const auto last = static_cast<int>(mesh.triangles.size() / 3) - 1;
@@ -291,7 +279,7 @@ TEST(MeshCover, HasAFrontFaceOnEachNormalOfAFilledPlace) {
                 south <= -1.5707 ? south : south + (south > -1e-6 ? bulge : 0.0) + 1e-5 * (north - south);
             const double upper =
                 north >= 1.5707 ? north : north - (north < 1e-6 ? bulge : 0.0) - 1e-5 * (north - south);
-            const core::Geodetic at{
+            const Geodetic at{
                 random.uniform(lower, upper),
                 cover.place.longitude().lower + cover.place.longitude().width() * random.uniform(1e-5, 1.0 - 1e-5),
                 0.0};

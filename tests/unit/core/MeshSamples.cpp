@@ -27,6 +27,19 @@ void moveVertex(core::EcefMesh& mesh, std::size_t i, const glm::dvec3& by) {
     mesh.z[i] += by.z;
 }
 
+GeodeticBin randomExtents(Random& random, const Ellipsoid& ellipsoid, double size, double relief) {
+    const double height = random.logUniform(1e-5, size);
+    const double south = random.chance(0.1)   ? -kHalfPi
+                         : random.chance(0.1) ? kHalfPi - height
+                                              : random.uniform(-kHalfPi, kHalfPi - height);
+    const double west = random.uniform(-kPi, kPi);
+    const double low = random.uniform(-relief, relief);
+    const double high = random.chance(0.3) ? low : random.uniform(low, relief);
+    const double unit = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    return GeodeticBin({south, south + height}, {west, west + height * random.uniform(0.5, 2.0)},
+                       {low * unit, high * unit});
+}
+
 EcefMesh gridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& extents, std::uint32_t cells) {
     EcefMesh mesh;
     for (std::uint32_t row = 0; row <= cells; ++row) {
@@ -102,6 +115,14 @@ std::array<Triangle, 4> GridCell::triangles() const {
 core::GroundPlates platesOf(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
                             const core::GeodeticBin& extents, double margin) {
     return {ellipsoid, mesh, core::MeshCover::of(ellipsoid, mesh, margin), extents, margin};
+}
+
+core::GroundPlates gridPlatesOf(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents,
+                                std::size_t cells, double margin, double skirt) {
+    std::vector<double> altitudes;
+    for (std::size_t i = 0; i < mesh.size(); ++i) altitudes.push_back(ellipsoid.toGeodetic(mesh.vertex(i)).altitude);
+    return {ellipsoid, GeodeticGrid{extents.latitude(), extents.longitude(), cells + 1, cells + 1}, altitudes, margin,
+            skirt};
 }
 
 EcefMesh unmerged(const EcefMesh& mesh) {

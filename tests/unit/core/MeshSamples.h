@@ -9,6 +9,9 @@
 
 namespace osgAnalyticBin::test {
 
+/// A tile of 64 km by 56.
+inline const core::GeodeticBin kHills({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+
 struct Triangle {
     glm::dvec3 a, b, c;
 };
@@ -45,6 +48,10 @@ void addVertex(core::EcefMesh& mesh, const glm::dvec3& v);
 
 /// Moves vertex number `i`.
 void moveVertex(core::EcefMesh& mesh, std::size_t i, const glm::dvec3& by);
+
+/// Up to `size` radians, at the poles often, with altitudes up to `relief` of the smaller radius either way.
+[[nodiscard]] core::GeodeticBin randomExtents(Random& random, const core::Ellipsoid& ellipsoid, double size,
+                                              double relief);
 
 /// Posts on a grid over the extents, each with its own altitude; diagonals by chance.
 [[nodiscard]] core::EcefMesh gridMesh(Random& random, const core::Ellipsoid& ellipsoid,
@@ -83,6 +90,11 @@ struct GridCell {
 /// Plates of a mesh, with what it covers. Otherwise as the constructor of GroundPlates.
 [[nodiscard]] core::GroundPlates platesOf(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
                                           const core::GeodeticBin& extents, double margin = 0.0);
+
+/// Plates of the posts of a mesh that gridMesh() made, as if only they were known.
+[[nodiscard]] core::GroundPlates gridPlatesOf(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
+                                              const core::GeodeticBin& extents, std::size_t cells, double margin = 0.0,
+                                              double skirt = 0.0);
 
 /// As many meshes have it: each triangle has vertices of its own.
 [[nodiscard]] core::EcefMesh unmerged(const core::EcefMesh& mesh);

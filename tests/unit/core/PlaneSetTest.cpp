@@ -85,16 +85,6 @@ TEST(PlaneSet, ReturnsItsPlanes) {
     EXPECT_EQ(set.all(), ~PlaneMask{0});
 }
 
-TEST(PlaneSet, PlanesThatAreNotThereStayUndecided) {
-    const ExactGeodeticBin bin(wgs84(), kOneDegree);
-    const PlaneSet planes = setOf({{{1.0, 0.0, 0.0}, 1e9}});
-    PlaneMask undecided = 0b101;
-    EXPECT_EQ(core::classify(bin, planes, undecided), Side::Straddling);
-    EXPECT_EQ(undecided, PlaneMask{0b100});
-    undecided = 0;
-    EXPECT_EQ(core::classify(bin, planes, undecided), Side::Inside);
-}
-
 // Debug builds stop at such planes; others must not cull by them.
 template <class Bin>
 void expectUndecided(const Bin& bin, const Plane& plane) {

@@ -15,14 +15,6 @@ namespace {
 constexpr double kPromised = 1.6e-14;  // of the larger radius
 constexpr double kRound = 0.01;        // |a2/b2 - 1| up to which there are quick bounds
 
-double smaller(const Ellipsoid& e) {
-    return std::min(e.equatorialRadius(), e.polarRadius());
-}
-
-double larger(const Ellipsoid& e) {
-    return std::max(e.equatorialRadius(), e.polarRadius());
-}
-
 // A metre on the earth.
 double axisTolerance(const Ellipsoid& e) {
     return e.equatorialRadius() / 6378137.0;
@@ -59,26 +51,13 @@ class PlanetMeshes : public ::testing::TestWithParam<Planet> {
 protected:
     [[nodiscard]] Ellipsoid in(double unit) const { return GetParam().in(unit); }
 
-    // Up to `size` radians, at the poles often, with altitudes up to `relief` of the smaller radius either way.
-    GeodeticBin randomExtents(const Ellipsoid& ellipsoid, double size, double relief) {
-        const double height = random.logUniform(1e-5, size);
-        const double south = random.chance(0.1)   ? -kHalfPi
-                             : random.chance(0.1) ? kHalfPi - height
-                                                  : random.uniform(-kHalfPi, kHalfPi - height);
-        const double west = random.uniform(-kPi, kPi);
-        const double low = random.uniform(-relief, relief);
-        const double high = random.chance(0.3) ? low : random.uniform(low, relief);
-        return GeodeticBin({south, south + height}, {west, west + height * random.uniform(0.5, 2.0)},
-                           {low * smaller(ellipsoid), high * smaller(ellipsoid)});
-    }
-
     Random random{1201};
 };
 
 TEST_P(PlanetMeshes, ThoroughBoundsHoldEveryPoint) {
     const Ellipsoid ellipsoid = in(1.0);
     for (int trial = 0; trial < 150; ++trial) {
-        const GeodeticBin extents = randomExtents(ellipsoid, 0.6, random.chance(0.5) ? 0.002 : 0.08);
+        const GeodeticBin extents = randomExtents(random, ellipsoid, 0.6, random.chance(0.5) ? 0.002 : 0.08);
         const auto cells = static_cast<std::uint32_t>(random.integer(2, 5));
         EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
         // a row at a pole is one point, each of whose copies has a rounding error for a longitude
@@ -101,7 +80,7 @@ TEST_P(PlanetMeshes, BoundsHoldEveryPointAndKnowTheAltitudeOfEveryVertex) {
     const Ellipsoid ellipsoid = in(1.0);
     int quick = 0;
     for (int trial = 0; trial < 150; ++trial) {
-        const GeodeticBin extents = randomExtents(ellipsoid, 0.6, 0.0017);
+        const GeodeticBin extents = randomExtents(random, ellipsoid, 0.6, 0.0017);
         const auto cells = static_cast<std::uint32_t>(random.integer(2, 9));
         const EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
         const MeshBounds bounds(ellipsoid, mesh);
@@ -159,7 +138,7 @@ TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
     for (const double unit : {0x1p-10, 0x1p-22, 0x1p-30, 0x1p7}) {
         const Ellipsoid ellipsoid = in(unit);
         for (int trial = 0; trial < 40; ++trial) {
-            const GeodeticBin extents = randomExtents(metres, 0.3, 0.05);
+            const GeodeticBin extents = randomExtents(random, metres, 0.3, 0.05);
             const EcefMesh mesh = gridMesh(random, metres, extents, 7);
             EcefMesh scaled = mesh;
             for (std::vector<double>* axis : {&scaled.x, &scaled.y, &scaled.z})
@@ -224,11 +203,9 @@ TEST_P(PlanetMeshes, AnyTriangleIsHeldOrUnknown) {
 
 TEST_P(PlanetMeshes, GridBoundsHoldEveryPoint) {
     const Ellipsoid ellipsoid = in(1.0);
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    const double deepest = 0.5 * std::min(a * a / b, b * b / a);
+    const double deepest = 0.5 * smallestCurvatureRadius(ellipsoid);
     for (int trial = 0; trial < 100; ++trial) {
-        const GeodeticBin extents = randomExtents(ellipsoid, 1.5, 0.0);
+        const GeodeticBin extents = randomExtents(random, ellipsoid, 1.5, 0.0);
         const auto posts = static_cast<std::size_t>(random.integer(5, 33));
         const GeodeticGrid grid{extents.latitude(), extents.longitude(), posts, posts};
         const double reach = smaller(ellipsoid) * (random.chance(0.2) ? 0.0 : random.logUniform(1e-6, 0.3));

@@ -11,8 +11,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // A tile of the globe, of some hundred metres to some hundred kilometres, with its posts at random altitudes.
 struct Tile {
     explicit Tile(Random& random) : ellipsoid(random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * 1.004)) {
@@ -22,15 +20,6 @@ struct Tile {
         extents = GeodeticBin({south, south + size}, {west, west + size}, {-relief, relief});
         cells = static_cast<std::uint32_t>(random.integer(2, 16));
         mesh = gridMesh(random, ellipsoid, extents, cells);
-    }
-
-    // As if it were a grid of posts, with skirts of this depth.
-    [[nodiscard]] GroundPlates gridPlates(double skirt) const {
-        std::vector<double> altitudes;
-        for (std::size_t i = 0; i < mesh.size(); ++i)
-            altitudes.push_back(ellipsoid.toGeodetic(mesh.vertex(i)).altitude);
-        return {ellipsoid, core::GeodeticGrid{extents.latitude(), extents.longitude(), cells + 1, cells + 1}, altitudes,
-                0.0, skirt};
     }
 
     // A bin of all that is drawn, the borders of whose parts are as far beside as they may be.
@@ -109,7 +98,9 @@ TEST(GroundPlates, TopsAreAboveTheMesh) {
 
 TEST(GroundPlates, TopsAreAboveTheMeshOfAGrid) {
     Random random(1731);
-    const auto make = [](const Tile& tile) { return std::tuple(tile.mesh, tile.gridPlates(0.0), 0.0); };
+    const auto make = [](const Tile& tile) {
+        return std::tuple(tile.mesh, gridPlatesOf(tile.ellipsoid, tile.mesh, tile.extents, tile.cells), 0.0);
+    };
     EXPECT_GT(knownTops(random, 500, make), 500 * 12);
 }
 
@@ -134,7 +125,7 @@ TEST(GroundPlates, TopsAreAboveSkirtsOfAGrid) {
         EcefMesh drawn = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
         const glm::dvec3 aside = 0.044 * depth * random.direction();
         for (std::size_t i = tile.mesh.size(); i < drawn.size(); ++i) moveVertex(drawn, i, aside);
-        return std::tuple(drawn, tile.gridPlates(depth), depth);
+        return std::tuple(drawn, gridPlatesOf(tile.ellipsoid, tile.mesh, tile.extents, tile.cells, 0.0, depth), depth);
     });
     EXPECT_GT(known, 2000);
 }
@@ -162,11 +153,10 @@ TEST(GroundPlates, TopsAreAboveLines) {
 TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
     Random random(1735);
     const Ellipsoid earth = wgs84();
-    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
     for (int trial = 0; trial < 20; ++trial) {
         const std::uint32_t cells = trial % 2 == 0 ? 16 : 20, beyond = trial % 2 == 0 ? 1 : 2;
-        const EcefMesh mesh = gridMesh(random, earth, extents, cells);
-        const GroundPlates plates = platesOf(earth, mesh, extents);
+        const EcefMesh mesh = gridMesh(random, earth, kHills, cells);
+        const GroundPlates plates = platesOf(earth, mesh, kHills);
         for (std::uint32_t part = 0; part < GroundPlates::kParts; ++part) {
             const std::uint32_t south = part / 8 * 2 + part / 2 % 2, west = part / 4 % 2 * 2 + part % 2;
             const auto first = [&](std::uint32_t strip) { return std::max(cells / 4 * strip, beyond) - beyond; };
@@ -175,15 +165,14 @@ TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearThePart) {
             for (std::uint32_t row = first(south); row <= last(south); ++row)
                 for (std::uint32_t column = first(west); column <= last(west); ++column)
                     highest = std::max(highest, earth.toGeodetic(mesh.vertex(row * (cells + 1) + column)).altitude);
-            EXPECT_NEAR(plates.most(part, extents), highest, 1e-3 + 2.0 * 2300.0 / 65533.0);
+            EXPECT_NEAR(plates.most(part, kHills), highest, 1e-3 + 2.0 * 2300.0 / 65533.0);
         }
     }
 }
 
 TEST(GroundPlates, TopsAreNotKnownForBinsWithOtherParts) {
     Random random(1736);
-    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
-    const GroundPlates plates = platesOf(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
+    const GroundPlates plates = platesOf(wgs84(), gridMesh(random, wgs84(), kHills, 16), kHills);
     const auto isKnown = [&](const Interval& latitude, const Interval& longitude, const Interval& altitude) {
         return std::isfinite(plates.most(3, GeodeticBin(latitude, longitude, altitude)));
     };
@@ -194,16 +183,15 @@ TEST(GroundPlates, TopsAreNotKnownForBinsWithOtherParts) {
     EXPECT_FALSE(isKnown({0.5, 0.51}, {1.00032, 1.00968}, {-300.0, 2000.0}));
     EXPECT_FALSE(isKnown({0.5, 0.51022}, {1.0, 1.01}, {-300.0, 2000.0}));
     EXPECT_FALSE(isKnown({0.5, 0.51}, {1.00016, 1.01016}, {-300.0, 2000.0}));
-    EXPECT_FALSE(std::isfinite(GroundPlates().most(0, extents)));
+    EXPECT_FALSE(std::isfinite(GroundPlates().most(0, kHills)));
 }
 
 // The tile is some 56 km wide, measured along a sphere that lies within the ellipsoid a little less.
 TEST(GroundPlates, TopsAreNotKnownWhereSkirtsAreTooDeep) {
-    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
-    const core::GeodeticGrid grid{extents.latitude(), extents.longitude(), 17, 17};
+    const core::GeodeticGrid grid{kHills.latitude(), kHills.longitude(), 17, 17};
     const std::vector<double> altitudes(17 * 17, 100.0);
     for (const auto& [depth, isKnown] : {std::pair{22e3, true}, std::pair{29e3, false}, std::pair{-1.0, false}})
-        EXPECT_EQ(std::isfinite(GroundPlates(wgs84(), grid, altitudes, 0.0, depth).most(0, extents)), isKnown);
+        EXPECT_EQ(std::isfinite(GroundPlates(wgs84(), grid, altitudes, 0.0, depth).most(0, kHills)), isKnown);
 }
 
 }  // namespace

@@ -157,9 +157,7 @@ TEST(QuadraticOrExact, WideTilesAreExactAndSmallOnesAreNot) {
         }
     }
     EXPECT_TRUE(isExact(quadraticOrExact(wgs84(), GeodeticBin::wholeGlobe(kTerrainAltitudes))));
-}
-
-TEST(QuadraticOrExact, BelowTheCentresOfCurvatureOnlyTheModelHolds) {
+    // below the centres of curvature only the model holds
     EXPECT_FALSE(isExact(quadraticOrExact(wgs84(), GeodeticBin::wholeGlobe({-6.37e6, 0.0}))));
 }
 

@@ -36,14 +36,20 @@
 #include <support/TemporaryFolder.h>
 #include <support/VisitNodes.h>
 
-namespace osgAnalyticBin::test {
+namespace osgAnalyticBin {
+namespace {
 
-/// A photogrammetry set in a folder of its own.
-class PhotogrammetryFixture : public ::testing::Test {
+namespace fs = std::filesystem;
+
+using test::CapturedNotes;
+using test::ecefDeg;
+
+// A photogrammetry set in a folder of its own.
+class Photogrammetry : public ::testing::Test {
 protected:
     void SetUp() override { write({}); }
 
-    void write(const PhotogrammetrySample& sample) {
+    void write(const test::PhotogrammetrySample& sample) {
         ASSERT_TRUE(writePhotogrammetrySample(_folder.path(), sample));
         writeMetadata("ENU:47.5,11.2", "0,0,0");
     }
@@ -66,27 +72,12 @@ protected:
         return result.validNode() ? "no error" : result.message();
     }
 
-    /// The transform that holds the tiles of a set that was read.
+    // The transform that holds the tiles of a set that was read.
     [[nodiscard]] static osg::MatrixTransform* setIn(osg::Node& scene) {
         auto* const globe = dynamic_cast<osg::CoordinateSystemNode*>(&scene);
         return dynamic_cast<osg::MatrixTransform*>(globe ? globe->getChild(0) : &scene);
     }
 
-    TemporaryFolder _folder;
-    const std::string _metadata = _folder / "metadata.xml";
-};
-
-}  // namespace osgAnalyticBin::test
-
-namespace osgAnalyticBin {
-namespace {
-
-namespace fs = std::filesystem;
-
-using test::CapturedNotes;
-
-class Photogrammetry : public test::PhotogrammetryFixture {
-protected:
     // Where a point of the tiles' frame stands on the globe.
     osg::Vec3d placed(const osg::Vec3d& point) const {
         const osg::ref_ptr<osg::Node> scene = read();
@@ -100,9 +91,9 @@ protected:
         writeMetadata(srs, origin);
         expectError(text);
     }
-    static osg::Vec3d ecef(double latitudeDeg, double longitudeDeg, double height) {
-        return test::ecefDeg(latitudeDeg, longitudeDeg, height);
-    }
+
+    test::TemporaryFolder _folder;
+    const std::string _metadata = _folder / "metadata.xml";
 };
 
 // Metres along the meridian from the equator, by Simpson's rule.
@@ -117,11 +108,11 @@ double meridianArc(double latitude) {
 }
 
 TEST_F(Photogrammetry, StandsWhereEnuSays) {
-    EXPECT_NEAR((placed({0, 0, 0}) - ecef(47.5, 11.2, 0.0)).length(), 0.0, 1e-6);
-    EXPECT_NEAR((placed({0, 0, 250}) - ecef(47.5, 11.2, 250.0)).length(), 0.0, 1e-6);
+    EXPECT_NEAR((placed({0, 0, 0}) - ecefDeg(47.5, 11.2, 0.0)).length(), 0.0, 1e-6);
+    EXPECT_NEAR((placed({0, 0, 250}) - ecefDeg(47.5, 11.2, 250.0)).length(), 0.0, 1e-6);
     // 100 m to the north are to the north
     const osg::Vec3d north = placed({0, 100, 0}) - placed({0, 0, 0});
-    const osg::Vec3d expected = ecef(47.501, 11.2, 0.0) - ecef(47.5, 11.2, 0.0);
+    const osg::Vec3d expected = ecefDeg(47.501, 11.2, 0.0) - ecefDeg(47.5, 11.2, 0.0);
     EXPECT_NEAR(north.length(), 100.0, 1e-6);
     EXPECT_GT(north * expected / (north.length() * expected.length()), 1.0 - 1e-8);
 }
@@ -140,8 +131,8 @@ TEST_F(Photogrammetry, StandsWhereAMapSays) {
     const double northing = 0.9996 * meridianArc(latitude);
     writeMetadata("EPSG:32632", "500000," + std::to_string(northing) + ",600");
     // the tangent touches at the middle of the set, some metres up
-    EXPECT_NEAR((placed({0, 0, 0}) - ecef(47.5, 9.0, 600.0)).length(), 0.0, 0.01);
-    EXPECT_NEAR((placed({0, 0, 100}) - ecef(47.5, 9.0, 700.0)).length(), 0.0, 0.01);
+    EXPECT_NEAR((placed({0, 0, 0}) - ecefDeg(47.5, 9.0, 600.0)).length(), 0.0, 0.01);
+    EXPECT_NEAR((placed({0, 0, 100}) - ecefDeg(47.5, 9.0, 700.0)).length(), 0.0, 0.01);
     // metres of the map are longer on the earth
     EXPECT_NEAR((placed({100, 0, 0}) - placed({0, 0, 0})).length(),
                 100.0 / 0.9996 * (1.0 + 650.0 / osg::WGS_84_RADIUS_EQUATOR), 0.01);
@@ -156,7 +147,7 @@ TEST_F(Photogrammetry, LeavesTheCurvedEarthAsDocumented) {
 }
 
 TEST_F(Photogrammetry, StandsWhereEarthCentredCoordinatesSay) {
-    const osg::Vec3d origin = ecef(47.5, 11.2, 0.0);
+    const osg::Vec3d origin = ecefDeg(47.5, 11.2, 0.0);
     writeMetadata("EPSG:4978",
                   std::to_string(origin.x()) + ',' + std::to_string(origin.y()) + ',' + std::to_string(origin.z()));
     EXPECT_NEAR((placed({3, 4, 5}) - (origin + osg::Vec3d(3, 4, 5))).length(), 0.0, 1e-3);
@@ -253,7 +244,7 @@ bool hasVertexInside(const osg::Drawable& drawable, const osg::Matrixd& toEye, c
     });
 }
 
-class FalseSpheres : public test::PhotogrammetryFixture {
+class FalseSpheres : public Photogrammetry {
 protected:
     // A set that is flown over.
     struct Flown {

@@ -44,16 +44,13 @@ Counted counted(osg::Node& scene) {
 
 class Plugin : public ::testing::Test {
 protected:
-    void SetUp() override {
-        _database = test::writeSyntheticDatabase(_folder.path());
-        ASSERT_FALSE(_database.empty());
-    }
     osg::ref_ptr<osg::Node> read(const std::string& suffix, const std::string& optionString = {}) {
         const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(optionString);
         return osgDB::readRefNodeFile(_database + suffix, options.get());
     }
-    test::TemporaryFolder _folder;
-    std::string _database;
+
+    const test::TemporaryFolder _folder;
+    const std::string _database = test::writeSyntheticDatabase(_folder.path());
 };
 
 TEST_F(Plugin, TheObjectCacheKeepsTheDatabaseWithAndWithoutBinsApart) {

@@ -31,17 +31,12 @@ using test::Outcome;
 
 class StockTools : public ::testing::Test {
 protected:
-    void SetUp() override {
-        _database = test::writeSyntheticDatabase(_folder.path());
-        ASSERT_FALSE(_database.empty());
-    }
-
     [[nodiscard]] Outcome convert(const std::string& from, const std::string& to, Modules modules) const {
         return test::runOsgconv(test::quoted(from) + ' ' + test::quoted(to), modules);
     }
 
-    test::TemporaryFolder _folder;
-    std::string _database;
+    const test::TemporaryFolder _folder;
+    const std::string _database = test::writeSyntheticDatabase(_folder.path());
 };
 
 // Without the modules it opens with one warning. Nothing stored switches culling off.
@@ -81,21 +76,19 @@ std::size_t tilesWithBins(osg::Node& scene) {
     return count;
 }
 
-class Archive : public ::testing::Test {
+class Archive : public StockTools {
 protected:
     void SetUp() override {
         if (!fs::exists(OSGARCHIVE_FILE)) GTEST_SKIP() << "needs osgarchive";
-        _database = test::writeSyntheticDatabase(_folder.path());
-        ASSERT_FALSE(_database.empty());
-        pack(test::Modules::Present);
+        pack(Modules::Present);
         ASSERT_TRUE(fs::exists(_archive));
     }
     void TearDown() override { osgDB::Registry::instance()->clearArchiveCache(); }
     // The first file is the one that opening the archive reads.
-    test::Outcome pack(test::Modules modules) const {
-        test::Outcome outcome = test::runStock("sh -c \"cd " + _folder.path() + " && " + OSGARCHIVE_FILE +
-                                                   " -a packed/globe.osga -i globe.osgb tiles_*.osgb\"",
-                                               modules);
+    Outcome pack(Modules modules) const {
+        Outcome outcome = test::runStock("sh -c \"cd " + _folder.path() + " && " + OSGARCHIVE_FILE +
+                                             " -a packed/globe.osga -i globe.osgb tiles_*.osgb\"",
+                                         modules);
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         return outcome;
     }
@@ -106,9 +99,7 @@ protected:
         return flight.drawn();
     }
 
-    test::TemporaryFolder _folder;
-    std::string _database;
-    std::string _archive = _folder.makeFolder("packed") + "/globe.osga";
+    const std::string _archive = _folder.makeFolder("packed") + "/globe.osga";
     const CullView _view = CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
 };
 
@@ -126,7 +117,7 @@ TEST_F(Archive, IsDrawnAsItsFilesAreAndEveryTileHasItsBin) {
 // osgarchive reads and writes each file anew, and drops what it does not know.
 TEST_F(Archive, PackedWithoutTheModulesLosesTheDatabasesRequestAndKeepsTheBins) {
     fs::remove(_archive);
-    const test::Outcome outcome = pack(test::Modules::Absent);
+    const Outcome outcome = pack(Modules::Absent);
     EXPECT_EQ(outcome.linesWith("Unsupported wrapper class"), 1) << outcome.text;
     const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(_archive);
     ASSERT_TRUE(plain);

@@ -20,6 +20,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <CullFixture.h>
+#include <DatabaseFixture.h>
 #include <cmath>
 #include <filesystem>
 #include <support/GridMesh.h>
@@ -91,28 +92,12 @@ TEST(ClusterOf, ThereIsNoneForTilesThatReachAround) {
     EXPECT_FALSE(clusterOf({}, kEarth));
 }
 
-// A tile as databases have them: a mesh about an origin of its own, and a finer file or none.
-osg::ref_ptr<osg::Node> tile(double west, const std::string& finer = "absent.osgb") {
-    const std::vector<glm::dvec3> vertices = posts(0.0, west, 5.0, 100.0);
-    const osg::Vec3d origin(vertices[0].x, vertices[0].y, vertices[0].z);
-    const osg::ref_ptr<osg::Vec3Array> array = new osg::Vec3Array;
-    for (const glm::dvec3& v : vertices) array->push_back(osg::Vec3(osg::Vec3d(v.x, v.y, v.z) - origin));
-    const auto mesh = test::makeGeometry(array, test::gridTriangles(kPosts));
-    const osg::ref_ptr<osg::Node> placed = test::placed(mesh, osg::Matrixd::translate(origin));
-    placed->setDataVariance(osg::Object::STATIC);
-    if (finer.empty()) return placed;
-    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-    paged->addChild(placed, 1e6F, 1e10F);
-    paged->setFileName(1, finer);
-    paged->setRange(1, 0.0F, 1e6F);
-    return paged;
+// A tile as databases have them, 5 degrees wide: its mesh, and a finer file.
+osg::ref_ptr<osg::MatrixTransform> leaf(double west) {
+    return test::makeMeshTile(test::extentsDeg(0, 5, west, west + 5), 100.0, kPosts);
 }
-
-osg::ref_ptr<osg::CoordinateSystemNode> globe(const std::vector<double>& wests) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    for (const double west : wests) root->addChild(tile(west));
-    return root;
+osg::ref_ptr<osg::Node> tile(double west) {
+    return test::makePaged(leaf(west), "absent.osgb");
 }
 
 const osg::ClusterCullingCallback* clusterOn(const osg::Node& node) {
@@ -120,7 +105,7 @@ const osg::ClusterCullingCallback* clusterOn(const osg::Node& node) {
 }
 
 TEST(ClusterFiller, GivesEveryTileOfAFileItsOwn) {
-    const auto root = globe({0.0, 5.0});
+    const auto root = test::makeGlobe({tile(0.0), tile(5.0)});
     EXPECT_EQ(fillClusterCallbacks(*root, nullptr), 2U);
     const osg::ClusterCullingCallback* const first = clusterOn(*root->getChild(0));
     ASSERT_TRUE(first);
@@ -134,8 +119,7 @@ TEST(ClusterFiller, GivesEveryTileOfAFileItsOwn) {
 }
 
 TEST(ClusterFiller, GivesLeavesOfAPageTheirsInTheirOwnFrame) {
-    const osg::ref_ptr<osg::Group> page = new osg::Group;
-    page->addChild(tile(0.0, {}));
+    const auto page = test::makeGroup({leaf(0.0)});
     ASSERT_EQ(fillClusterCallbacks(*page, osg::ref_ptr(new osg::EllipsoidModel).get()), 1U);
     const osg::ClusterCullingCallback* const own = clusterOn(*page->getChild(0));
     ASSERT_TRUE(own);
@@ -146,12 +130,12 @@ TEST(ClusterFiller, GivesLeavesOfAPageTheirsInTheirOwnFrame) {
 }
 
 TEST(ClusterFiller, LeavesFilesThatHaveTheirOwnAndWhatIsNoGlobe) {
-    const auto own = globe({0.0, 5.0});
+    const auto own = test::makeGlobe({tile(0.0), tile(5.0)});
     own->getChild(1)->setCullCallback(new osg::ClusterCullingCallback);
     EXPECT_EQ(fillClusterCallbacks(*own, nullptr), 0U);
     EXPECT_EQ(own->getChild(0)->getCullCallback(), nullptr);
-    EXPECT_EQ(fillClusterCallbacks(*tile(0.0, {}), nullptr), 0U) << "a root file without a globe";
-    const auto map = globe({0.0});
+    EXPECT_EQ(fillClusterCallbacks(*leaf(0.0), nullptr), 0U) << "a root file without a globe";
+    const auto map = test::makeGlobe({tile(0.0)});
     map->setEllipsoidModel(nullptr);
     map->setCoordinateSystem("PROJCS[\"UTM\"]");
     EXPECT_EQ(fillClusterCallbacks(*map, nullptr), 0U) << "a map";
@@ -185,7 +169,7 @@ TEST(FileWatch, TreatsWhatIsReadAsItIsTold) {
     const test::TemporaryFolder folder;
     const std::string file = folder / "scene.osgt";
     // Drawn from 2000 km above 0 N 0 E, where the horizon is 41 degrees away.
-    const auto root = globe({0.0, 20.0, 60.0, 90.0, 120.0, 175.0});
+    const auto root = test::makeGlobe({tile(0.0), tile(20.0), tile(60.0), tile(90.0), tile(120.0), tile(175.0)});
     test::CullView view = test::CullView::lookAt({8.4e6, 0, 0}, {}, {0, 0, 1}, 60.0);
     view.cullingMode = osg::CullSettings::CLUSTER_CULLING;
     const osg::ref_ptr<FileWatch> watch = new FileWatch;

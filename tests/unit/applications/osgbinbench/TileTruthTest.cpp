@@ -7,10 +7,10 @@
 #include "TileTruth.h"
 
 #include <gtest/gtest.h>
-#include <osg/Geometry>
+#include <osg/Geode>
 
+#include <DatabaseFixture.h>
 #include <cmath>
-#include <iterator>
 #include <support/RandomViews.h>
 
 namespace osgAnalyticBin::bench {
@@ -34,13 +34,8 @@ osg::Vec3 at(double latDeg, double lonDeg, double altitude) {
 
 // One degree wide, from the south-west corner on.
 flight::DrawnTile tileAt(const std::string& key, double southDeg, double westDeg) {
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    const osg::Vec3 corners[] = {at(southDeg, westDeg, 0), at(southDeg, westDeg + 1, 0),
-                                 at(southDeg + 1, westDeg + 1, 0), at(southDeg + 1, westDeg, 0)};
-    geometry->setVertexArray(new osg::Vec3Array(std::begin(corners), std::end(corners)));
-    const unsigned int indices[] = {0, 1, 2, 0, 2, 3};
-    geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 6, indices));
-    return {key, {{geometry, osg::Matrixd()}}, {}};
+    const auto mesh = test::makeMeshTile(test::extentsDeg(southDeg, southDeg + 1, westDeg, westDeg + 1), 0.0, 2);
+    return {key, {{mesh->getChild(0)->asGeode()->getDrawable(0), mesh->getMatrix()}}, {}};
 }
 
 TEST(OccluderDepth, GrowsOnlyByWhatIsBeforeItsOwnHorizon) {

@@ -3,6 +3,8 @@
 
 #include "Binconv.h"
 
+#include "TestRaster.h"
+
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
@@ -16,9 +18,7 @@
 #include <DatabaseFixture.h>
 #include <TileFixture.h>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
@@ -30,13 +30,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string writeBindemDatabase(const TemporaryFolder& folder) {
-    std::ostringstream grid;
-    grid << "ncols 144\nnrows 72\nxllcorner -180\nyllcorner -90\ncellsize 2.5\n";
-    for (int i = 0; i < 72 * 144; ++i)
-        grid << std::round(2000.0 * std::sin(0.3 * (i / 144)) * std::cos(0.4 * (i % 144))) << ' ';
-    const Outcome made = runStock(quoted({OSGBINDEM_PROGRAM, "--quiet", "--levels", "1", "--cells", "8",
-                                          folder.write("heights.asc", grid.str()), "-o", folder / "earth.osgb"}),
-                                  Modules::Present);
+    const std::string globe = TestRaster::globe(2.5, hills).write(folder / "heights.tif");
+    const Outcome made = runStock(
+        quoted({OSGBINDEM_PROGRAM, "--quiet", "--levels", "1", "--cells", "8", globe, "-o", folder / "earth.osgb"}),
+        Modules::Present);
     return made.code == 0 ? folder / "earth.osgb" : std::string();
 }
 
@@ -65,10 +62,7 @@ void writeFile(const std::string& path, osg::Node& tile) {
 }
 
 void writeRoot(const std::string& path, osg::Node& tile) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(new osg::EllipsoidModel);
-    root->addChild(&tile);
-    writeFile(path, *root);
+    writeFile(path, *makeGlobe({&tile}));
 }
 
 namespace {

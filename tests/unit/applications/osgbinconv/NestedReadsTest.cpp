@@ -17,6 +17,7 @@
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
+#include <DatabaseFixture.h>
 #include <arpa/inet.h>
 #include <filesystem>
 #include <netinet/in.h>
@@ -73,10 +74,7 @@ private:
 };
 
 osg::ref_ptr<osg::Node> tileWith(osg::Node& other) {
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(makeSmallTile("a.osgb"));
-    group->addChild(&other);
-    return group;
+    return makeGroup({makeSmallTile("a.osgb"), &other});
 }
 
 osg::ref_ptr<osg::Node> tileWithProxy(const std::string& name) {
@@ -157,10 +155,7 @@ TEST_F(NestedReads, AProxyInsideOfTheFolderIsRead) {
 TEST_F(NestedReads, FilesOfTheWorkingDirectoryAreNotTakenForOnesOfTheDatabase) {
     (void)trap(folder / "b.osgb");
     (void)trap(folder / "picture.png");
-    const osg::ref_ptr<osg::Group> both = new osg::Group;
-    both->addChild(tileWithProxy("b.osgb"));
-    both->addChild(tileWithTexture("picture.png"));
-    writeRootFile(*both);
+    writeRootFile(*makeGroup({tileWithProxy("b.osgb"), tileWithTexture("picture.png")}));
     const fs::path before = fs::current_path();
     fs::current_path(folder.path());
     EXPECT_EQ(runIndex("db/earth.osgb").code, 0);

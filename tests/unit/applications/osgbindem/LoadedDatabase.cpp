@@ -210,17 +210,11 @@ const LoadedTile& LoadedDatabase::leafAt(double latitudeDeg, double longitudeDeg
 
 double LoadedDatabase::altitudeAt(double latitudeDeg, double longitudeDeg) const {
     const LoadedTile& tile = leafAt(latitudeDeg, longitudeDeg);
-    const auto target = ellipsoid().toEcef({latitudeDeg * kDegree, longitudeDeg * kDegree, 0.0});
-    double nearest = HUGE_VAL;
-    double altitude = 0.0;
-    for (std::size_t i = 0; i < tile.surfaceCount(); ++i) {
-        const auto position = ellipsoid().toGeodetic(tile.vertices[i]);
-        const double distance = glm::distance(target, ellipsoid().toEcef({position.latitude, position.longitude, 0.0}));
-        if (distance >= nearest) continue;
-        nearest = distance;
-        altitude = position.altitude;
-    }
-    return altitude;
+    const Rect rect = tile.rect();
+    const double spacing = (rect.north - rect.south) / tile.cells;
+    const auto column = std::lround((longitudeDeg - rect.west) / spacing);
+    const auto row = std::lround((latitudeDeg - rect.south) / spacing);
+    return ellipsoid().toGeodetic(tile.post(static_cast<int>(column), static_cast<int>(row))).altitude;
 }
 
 LoadedDatabase loadDatabase(const std::string& rootFile) {

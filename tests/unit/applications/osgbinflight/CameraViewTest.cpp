@@ -7,11 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 
-#include <array>
+#include <support/GridMesh.h>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -59,12 +58,10 @@ TEST(CameraView, TurnsUpClockwiseByTheRollAndStepsAsideInTheRolledFrame) {
 }
 
 TEST(CameraView, StandsUprightInAMapWhereverThatIs) {
-    const osg::ref_ptr<osg::Geometry> mesh = new osg::Geometry;
-    const std::array<osg::Vec3, 3> corners{osg::Vec3(0, 0, 5), osg::Vec3(100, 0, 5), osg::Vec3(0, 100, 5)};
-    mesh->setVertexArray(new osg::Vec3Array(corners.begin(), corners.end()));
-    mesh->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    const osg::Vec3 corners[] = {{0, 0, 5}, {100, 0, 5}, {0, 100, 5}};
     const osg::ref_ptr<osg::PagedLOD> tile = new osg::PagedLOD;
-    tile->addChild(mesh, 0.0F, 1e10F);
+    tile->addChild(test::makeGeometry(new osg::Vec3Array(3, corners), new osg::DrawArrays(GL_TRIANGLES, 0, 3)), 0.0F,
+                   1e10F);
     const osg::ref_ptr<osg::CoordinateSystemNode> map = new osg::CoordinateSystemNode("WKT", "PROJCS[\"map\"]");
     map->addChild(tile);
     const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5e6));

@@ -12,7 +12,6 @@
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 
-#include <iterator>
 #include <support/GridMesh.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
@@ -66,8 +65,7 @@ TEST(TileCensus, CountsTheTilesOfTheGlobeAndKnowsTheBinsThatTheKitInstalled) {
 
 osg::ref_ptr<osg::Geometry> triangle() {
     const osg::Vec3 corners[] = {{6.4e6F, 0, 0}, {6.4e6F, 1e5F, 0}, {6.4e6F, 0, 1e5F}};
-    return test::makeGeometry(new osg::Vec3Array(std::begin(corners), std::end(corners)),
-                              new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    return test::makeGeometry(new osg::Vec3Array(3, corners), new osg::DrawArrays(GL_TRIANGLES, 0, 3));
 }
 
 TEST(TileCensus, TakesTheBinThatIsShown) {

@@ -66,7 +66,7 @@ void expectEqualPictures(const Measurement& flown) {
 }
 
 std::uint64_t sumOf(const Measurement& flown, std::size_t method, const char* column) {
-    return report::sumOf(flown.methods[method])[column].get<std::uint64_t>();
+    return sumOf(flown.methods[method], allOf(flown.methods[method]))[column].get<std::uint64_t>();
 }
 
 // What does not depend on how well a method culls.

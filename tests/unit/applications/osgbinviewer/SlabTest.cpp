@@ -11,11 +11,12 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/Depth>
+#include <osg/Geode>
+#include <osg/Geometry>
 
+#include <DatabaseFixture.h>
 #include <algorithm>
 #include <cmath>
-#include <support/GridMesh.h>
 #include <vector>
 
 namespace osgAnalyticBin::viewer {
@@ -88,23 +89,13 @@ protected:
     }
 };
 
-// Flat, with posts at other places than the slab's.
+// Flat and blue, with posts at other places than the slab's.
 osg::ref_ptr<osg::Node> makeSea(const core::GeodeticBin& bin) {
-    constexpr unsigned int kPosts = 65;
-    const auto at = [](const core::Interval& range, unsigned int i) {
-        return range.lower + range.width() * i / (kPosts - 1);
-    };
-    const auto toOsg = [](const glm::dvec3& v) { return osg::Vec3d(v.x, v.y, v.z); };
-    const osg::Vec3d origin = toOsg(kEarth.toEcef({bin.latitude().middle(), bin.longitude().middle(), 0.0}));
-    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    for (unsigned int i = 0; i < kPosts * kPosts; ++i)
-        vertices->push_back(
-            toOsg(kEarth.toEcef({at(bin.latitude(), i / kPosts), at(bin.longitude(), i % kPosts), 0.0})) - origin);
-    const auto triangles = test::gridTriangles(kPosts);
-    const auto sea = makeIndexed(*vertices, GL_TRIANGLES, {triangles->begin(), triangles->end()},
-                                 osg::Vec4(0.0F, 0.0F, 1.0F, 1.0F), 0);
-    sea->getStateSet()->setAttributeAndModes(new osg::Depth);
-    return placed(osg::Matrixd::translate(origin), {sea});
+    const auto sea = test::makeMeshTile(bin, 0.0, 65);
+    const osg::Vec4 blue[] = {osg::Vec4(0.0F, 0.0F, 1.0F, 1.0F)};
+    osg::Geometry& mesh = *sea->getChild(0)->asGeode()->getDrawable(0)->asGeometry();
+    mesh.setColorArray(new osg::Vec4Array(1, blue), osg::Array::BIND_OVERALL);
+    return sea;
 }
 
 TEST_F(SlabPicture, LiesOnFlatTerrainFromFarAndNear) {

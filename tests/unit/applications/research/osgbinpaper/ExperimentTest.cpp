@@ -8,16 +8,16 @@
 #include "Experiment.h"
 #include "GlmBridge.h"
 #include "Terrain.h"
+#include "TestRaster.h"
 #include "TileTree.h"
 
-#include <gdal.h>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <support/FailureText.h>
 #include <support/StockPrograms.h>
@@ -25,29 +25,17 @@
 
 namespace osgAnalyticBin::paper {
 
-/// Mountains and seas that differ everywhere, from -6000 to 6000 m.
-[[nodiscard]] inline double hills(double latitudeDeg, double longitudeDeg) {
-    constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
-    const double p = latitudeDeg * kRadiansPerDegree;
-    const double l = longitudeDeg * kRadiansPerDegree;
-    return 3000.0 * std::sin(7.0 * p + std::sin(3.0 * l)) + 2000.0 * std::cos(5.0 * l) * std::cos(p) +
-           1000.0 * std::sin(23.0 * p) * std::sin(19.0 * l);
-}
-
-/// A globe of the hills as a text file in a folder of its own.
+/// A globe in a folder of its own, with mountains and seas that differ everywhere, from -6000 to 6000 m in whole
+/// metres.
 struct TestGlobe {
-    TestGlobe() {
-        GDALAllRegister();
-        std::ostringstream text;
-        text << "ncols 180\nnrows 90\nxllcorner -180\nyllcorner -90\ncellsize 2\n";
-        for (int row = 89; row >= 0; --row)
-            for (int column = 0; column < 180; ++column)
-                text << std::lround(hills(2.0 * row - 89.0, 2.0 * column - 179.0)) << ' ';
-        file = folder.write("hills.asc", text.str());
+    [[nodiscard]] static double height(double latitudeDeg, double longitudeDeg) {
+        const double p = glm::radians(latitudeDeg), l = glm::radians(longitudeDeg);
+        return std::round(3000.0 * std::sin(7.0 * p + std::sin(3.0 * l)) + 2000.0 * std::cos(5.0 * l) * std::cos(p) +
+                          1000.0 * std::sin(23.0 * p) * std::sin(19.0 * l));
     }
 
     const test::TemporaryFolder folder;
-    std::string file;
+    const std::string file = TestRaster::globe(2.0, height).write(folder / "hills.tif");
 };
 
 namespace {

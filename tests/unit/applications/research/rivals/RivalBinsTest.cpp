@@ -74,8 +74,6 @@ TYPED_TEST(BoxBins, TouchTheBinOnAllSides) {
     }
 }
 
-const GeodeticBin kTile = GeodeticBin::fromDegrees({10.0, 11.0}, {20.0, 21.0}, {0.0, 100.0});
-
 TYPED_TEST(BoxBins, ReverseTestFindsAFrustumBeyondAFace) {
     Random random(406);
     int found = 0;
