@@ -20,9 +20,6 @@ public:
     /// Call before run(), or in `finish`.
     void push(Job job) { _waiting.push_back(std::move(job)); }
 
-    /// Call in `finish`: no more jobs are started.
-    void stop() { _isStopped = true; }
-
     /// Does all jobs in that many threads, one of which is the caller's: `work(job)` in parallel, then
     /// `finish(job, result)`, one at a time. The first exception stops the others and is thrown when all have ended.
     template <class Work, class Finish>
