@@ -119,13 +119,13 @@ void trySight(Random& random, Counts& counts) {
     const HorizonBin bin(line.ellipsoid, line.bin, line.margin);
     if (segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) {
         const auto eye = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
-        counts.note(kHorizon, eye && isHidden(bin, *eye));
+        counts.note(kHorizon, eye && eye->hides(bin));
         counts.note(kHorizonPoint, eye && HorizonPoint(bin).isHiddenFrom(*eye));
     }
     const glm::dvec3 view = glm::normalize(rounded(line.target) - line.eye);
     if (halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-view))) {
         const auto eye = HorizonEye::fromDirection(line.ellipsoid, line.depth, view, -1e8 * view);
-        counts.note(kParallelHorizon, eye && isHidden(bin, *eye));
+        counts.note(kParallelHorizon, eye && eye->hides(bin));
     }
 }
 
@@ -250,7 +250,7 @@ void tryTiedSight(Random& random, const TieCase& tie, Counts& counts) {
     if (sees(top)) {
         const glm::dvec3 last = sees(far) ? far : lastWhere(top, far, sees);
         const auto eye = HorizonEye::fromEye(tie.ellipsoid, depth, last);
-        counts.note(kHorizon, eye && isHidden(bin, *eye));
+        counts.note(kHorizon, eye && eye->hides(bin));
         counts.note(kHorizonPoint, eye && HorizonPoint(bin).isHiddenFrom(*eye));
     }
     const auto isSeenAlong = [&](const glm::dvec3& back) {
@@ -261,7 +261,7 @@ void tryTiedSight(Random& random, const TieCase& tie, Counts& counts) {
     if (!isSeenAlong(up)) return;
     const glm::dvec3 back = isSeenAlong(other) ? other : lastWhere(up, other, isSeenAlong);
     const auto parallel = HorizonEye::fromDirection(tie.ellipsoid, depth, -back, 100.0 * tie.size * back);
-    counts.note(kParallelHorizon, parallel && isHidden(bin, *parallel));
+    counts.note(kParallelHorizon, parallel && parallel->hides(bin));
 }
 
 void tryTies(Random& random, Counts& counts) {

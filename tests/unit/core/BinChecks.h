@@ -54,7 +54,7 @@ void expectPlanesWithoutNumbersToBeUndecided(const Make& make) {
         ASSERT_EQ(bin.classify(plane), core::Side::Outside);
         (broken < 3 ? plane.normal[broken] : plane.offset) = kNaN;
         EXPECT_EQ(bin.classify(plane), core::Side::Straddling) << broken;
-        EXPECT_EQ(bin.classify(plane.flipped()), core::Side::Straddling) << broken;
+        EXPECT_EQ(bin.classify({-plane.normal, -plane.offset}), core::Side::Straddling) << broken;
     }
     for (const double offset : {kInfinity, -kInfinity})
         EXPECT_EQ(bin.classify({{1.0, 0.0, 0.0}, offset}), core::Side::Straddling);

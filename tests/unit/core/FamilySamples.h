@@ -38,8 +38,7 @@ inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracle
     }
 }
 
-/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, slots are empty or cleared,
-/// and the family may be a copy.
+/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, and slots are empty or cleared.
 struct FamilyCase {
     explicit FamilyCase(Random& random)
         : ellipsoid(randomEllipsoid(random)),
@@ -54,12 +53,6 @@ struct FamilyCase {
             constexpr std::array<SlotKind, 4> kKinds{SlotKind::Either, SlotKind::Exact, SlotKind::Quadratic,
                                                      SlotKind::Empty};
             addSlot(random, oracles.back().bin(), i, isMixed ? random.pick(kKinds) : common);
-        }
-        if (random.chance(0.2)) {
-            // a copy has numbers of its own
-            const core::BinFamily copy(family);
-            for (std::size_t i = 0; i < family.size(); ++i) family.clear(i);
-            family = copy;
         }
         addRandomPlanes(random, oracles, planes);
         undecided = random.chance(0.5) ? planes.all() : static_cast<core::PlaneMask>(random.bits());

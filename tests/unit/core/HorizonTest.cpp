@@ -22,7 +22,7 @@ glm::dvec3 onWgs84(double latitudeDeg, double longitudeDeg, double altitude) {
 
 bool hides(const glm::dvec3& eye, const GeodeticBin& bin, double depth = kDepth, double margin = 0.0) {
     const auto prepared = HorizonEye::fromEye(wgs84(), depth, eye);
-    return prepared && isHidden(HorizonBin(wgs84(), bin, margin), *prepared);
+    return prepared && prepared->hides(HorizonBin(wgs84(), bin, margin));
 }
 
 GeodeticBin square(double southDeg, double westDeg, double sizeDeg, Interval altitude = {0.0, 1000.0}) {
@@ -144,7 +144,7 @@ double percentFound(Random& random, int level, const IsVisible& isVisible, const
                 visible = isVisible(geodeticToEcef(wgs84(), position));
             }
         }
-        const bool isFound = isHidden(HorizonBin(wgs84(), bin), eye);
+        const bool isFound = eye.hides(HorizonBin(wgs84(), bin));
         EXPECT_FALSE(visible && isFound) << trial;
         hidden += visible ? 0 : 1;
         found += isFound ? 1 : 0;

@@ -29,8 +29,6 @@ struct Plane {
 
     /// Metres, positive inside.
     [[nodiscard]] double distance(const glm::dvec3& point) const noexcept { return glm::dot(normal, point) + offset; }
-    /// The same plane with the other side inside.
-    [[nodiscard]] Plane flipped() const noexcept { return {-normal, -offset}; }
 };
 
 /// Whether the normal is of unit length to 1e-9, and its own rounding.

@@ -62,17 +62,6 @@ BinFamily::BinFamily(std::size_t count) : _size(std::min(count, kMostSlots)), _d
     for (std::size_t i = 0; i < _data.stride; ++i) makeEmpty(slot(i), _data.stride);
 }
 
-BinFamily::BinFamily(const BinFamily& other) : _size(other._size), _lines(other._lines), _data(other._data) {
-    _data.numbers = reinterpret_cast<const double*>(_lines.data());
-}
-
-BinFamily& BinFamily::operator=(BinFamily other) noexcept {
-    _size = other._size;
-    _lines.swap(other._lines);
-    _data = other._data;
-    return *this;
-}
-
 void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept {
     assert(i < _size);
     for (std::size_t r = 0; r < count; ++r) slot(i)[r * _data.stride] = rows[r];

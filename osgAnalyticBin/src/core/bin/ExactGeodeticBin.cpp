@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
+#include "../EarthScale.h"
 #include "../FloatRounding.h"
 #include "../kernels/ScalarTests.h"
 
@@ -24,17 +25,12 @@ namespace {
 // section 8.
 constexpr double kRounding = 32.0 * kEpsilon;
 
-// Bounds over all latitudes, by doc/theory/derivation.md, section 2.
-struct CurvatureBounds {
-    explicit CurvatureBounds(const Ellipsoid& ellipsoid) noexcept
-        : smallestRadius(std::min(ellipsoid.meridionalRadius(0.0, 1.0), ellipsoid.meridionalRadius(1.0, 0.0))),
-          largestRadius(std::max(ellipsoid.meridionalRadius(0.0, 1.0), ellipsoid.meridionalRadius(1.0, 0.0))),
-          // M' = 3 M e2 sp cp / w with |sp cp| <= 1/2
-          slope(1.5 * largestRadius * std::abs(ellipsoid.eccentricitySquared()) /
-                std::min(1.0, ellipsoid.squaredRatio())) {}
-
-    double smallestRadius, largestRadius, slope;
-};
+// Of M by latitude, a bound over all latitudes: M' = 3 M e2 sp cp / w with |sp cp| <= 1/2, doc/theory/derivation.md,
+// section 2.
+double largestSlope(const Ellipsoid& ellipsoid) {
+    return 1.5 * largestCurvatureRadius(ellipsoid) * std::abs(ellipsoid.eccentricitySquared()) /
+           std::min(1.0, ellipsoid.squaredRatio());
+}
 
 // The cosine and sine of the longitude of the bin at which nx cos + ny sin is largest.
 glm::dvec2 farthestAlongParallel(const double* numbers, double nx, double ny) {
@@ -70,7 +66,7 @@ double farthestAltitude(const Interval& altitude) {
 }  // namespace
 
 bool ExactGeodeticBin::holds(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
-    return !bin.empty() && !ellipsoid.isPlane() && bin.altitude().lower > -CurvatureBounds(ellipsoid).smallestRadius;
+    return !bin.empty() && !ellipsoid.isPlane() && bin.altitude().lower > -smallestCurvatureRadius(ellipsoid);
 }
 
 ExactGeodeticBin::ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
@@ -149,11 +145,10 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
         farthest = std::max({farthest, glm::distance(center, west), glm::distance(center, east)});
     }
     // Between its ends, an edge leaves its chord by at most an eighth of its second derivative.
-    const CurvatureBounds bounds(ellipsoid);
-    const double bend = bounds.slope + bounds.largestRadius + farthestAltitude(bin.altitude());
+    const double bend = largestSlope(ellipsoid) + largestCurvatureRadius(ellipsoid) + farthestAltitude(bin.altitude());
     const double width = bin.latitude().width();
     const double sag = 0.125 * width * width * bend;
-    const double tangent = bounds.smallestRadius + bin.altitude().lower;
+    const double tangent = smallestCurvatureRadius(ellipsoid) + bin.altitude().lower;
     const bool convex = (farthest + sag) * bend * kNormalTolerance < tangent * tangent;
     _numbers[row::CenterX] = center.x;
     _numbers[row::CenterY] = center.y;

@@ -88,12 +88,6 @@ struct EllipsoidTerms {
           inverseA2(1.0 / (a * a)),
           inverseB2(1.0 / (b * b)),
           flattening(a * a / (b * b) - 1.0) {}
-
-    // Radius of curvature of the ellipsoid, smallest and largest.
-    [[nodiscard]] Interval radius() const {
-        const auto [least, most] = std::minmax({a, b, b * b / a, a * a / b});
-        return {least, most};
-    }
 };
 
 class VertexPass {
@@ -305,8 +299,8 @@ bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& me
         runs[side] = end.guess * end.pole > 0.0;
     }
 
-    const Interval radius = terms.radius();
-    const double smallest = radius.lower + std::min(0.0, ranges.altitude.lower) - lengths.deepestChord;
+    const double smallest =
+        smallestCurvatureRadius(ellipsoid) + std::min(0.0, ranges.altitude.lower) - lengths.deepestChord;
     const double nearest = kNearerChords * ranges.axisDistance.lower;
     Curvatures curvatures{kPerCircle / smallest, {0.0, 0.0}};
     for (int side = 0; side < 2; ++side)
@@ -318,7 +312,7 @@ bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& me
     _sag = chords.widestCircle * curvatures.altitude;
     const double low = std::min(chords.low, ranges.altitude.lower);
 
-    const Interval metresPerRadian{smallest, radius.upper + farthest};
+    const Interval metresPerRadian{smallest, largestCurvatureRadius(ellipsoid) + farthest};
     _bin = GeodeticBin({-latitudeLimit(ends[1], chords.excess[1], metresPerRadian, lengths.rounding),
                         latitudeLimit(ends[0], chords.excess[0], metresPerRadian, lengths.rounding)},
                        {reference + std::atan(ranges.tangent.lower) - kAngleRounding,

@@ -28,13 +28,8 @@ public:
 
     /// Makes `count` empty slots. Requires: count <= kMostSlots (asserted); more are left out.
     explicit BinFamily(std::size_t count);
-    /// A copy with numbers of its own.
-    BinFamily(const BinFamily& other);
-    /// Moves the other's numbers.
-    BinFamily(BinFamily&&) noexcept = default;
-    /// Likewise.
-    BinFamily& operator=(BinFamily other) noexcept;
-    ~BinFamily() = default;
+    BinFamily(const BinFamily&) = delete;
+    BinFamily& operator=(const BinFamily&) = delete;
 
     /// The number of slots, empty ones included.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }

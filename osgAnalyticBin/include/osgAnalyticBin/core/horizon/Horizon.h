@@ -84,9 +84,4 @@ private:
     HorizonEyeData _data;
 };
 
-/// The third stage by itself: see HorizonEye::hides.
-[[nodiscard]] inline bool isHidden(const HorizonBin& bin, const HorizonEye& eye) noexcept {
-    return eye.hides(bin);
-}
-
 }  // namespace osgAnalyticBin::core
