@@ -23,8 +23,11 @@
 #include <cstring>
 #include <fstream>
 #include <istream>
+#include <optional>
 #include <ostream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -50,6 +53,8 @@ void toOrFromLittleEndian(char* number, std::size_t bytes) {
     if (osg::getCpuByteOrder() == osg::BigEndian) osg::swapBytes(number, static_cast<unsigned int>(bytes));
 }
 
+// Numbers in the byte order of the file, names of sorted lists, and checksums of what was before. A list of names ends
+// with the next checksum.
 class Writer {
 public:
     explicit Writer(std::ostream& out) : _out(out) {}
@@ -58,18 +63,36 @@ public:
         _checksum = indexing::crc32(text, _checksum);
         _out.write(text.data(), static_cast<std::streamsize>(text.size()));
     }
+    template <class... T>
+    void numbers(T... values) {
+        (number(values), ...);
+    }
+    // A name after the bytes that it shares with the one before, with numbers between.
+    template <class... T>
+    void name(const std::string& name, T... between) {
+        const auto shared =
+            std::mismatch(name.begin(), name.end(), _before.begin(), _before.end()).first - name.begin();
+        const std::string_view further = std::string_view(name).substr(static_cast<std::size_t>(shared));
+        numbers(static_cast<std::uint32_t>(shared), static_cast<std::uint32_t>(further.size()), between...);
+        bytes(further);
+        _before = name;
+    }
+    void checksum() {
+        number(_checksum);
+        _before.clear();
+    }
+
+private:
     template <class T>
     void number(T value) {
         char* const first = reinterpret_cast<char*>(&value);
         toOrFromLittleEndian(first, sizeof value);
         bytes({first, sizeof value});
     }
-    void metres(double value) { number(static_cast<float>(value)); }
-    [[nodiscard]] std::uint32_t checksum() const { return _checksum; }
 
-private:
     std::ostream& _out;
     std::uint32_t _checksum = 0;
+    std::string _before;
 };
 
 class Reader {
@@ -85,18 +108,36 @@ public:
         }
         return text;
     }
+    template <class... T>
+    void numbers(T&... values) {
+        (number(values), ...);
+    }
+    template <class... T>
+    std::string name(T&... between) {
+        std::uint32_t shared = 0, further = 0;
+        numbers(shared, further, between...);
+        if (shared > (_before ? _before->size() : 0) || further > kLongestName) throw Refusal{kDamaged};
+        const std::string name = (_before ? _before->substr(0, shared) : std::string()) + bytes(further);
+        if (name.size() > kLongestName || (_before && name <= *_before)) throw Refusal{kDamaged};
+        _before = name;
+        return name;
+    }
+    void checksum() {
+        const std::uint32_t found = _checksum;
+        std::uint32_t stored = 0;
+        number(stored);
+        if (stored != found) throw Refusal{kDamaged};
+        _before.reset();
+    }
+    [[nodiscard]] bool isAtEnd() { return _in.peek() == std::istream::traits_type::eof(); }
+
+private:
     template <class T>
-    T number() {
-        T value{};
+    void number(T& value) {
         char* const first = reinterpret_cast<char*>(&value);
         read(first, sizeof value);
         toOrFromLittleEndian(first, sizeof value);
-        return value;
     }
-    double metres() { return static_cast<double>(number<float>()); }
-    [[nodiscard]] std::uint32_t checksum() const { return _checksum; }
-
-private:
     void read(char* to, std::size_t count) {
         _in.read(to, static_cast<std::streamsize>(count));
         if (static_cast<std::size_t>(_in.gcount()) != count) throw Refusal{kTruncated};
@@ -105,165 +146,109 @@ private:
 
     std::istream& _in;
     std::uint32_t _checksum = 0;
+    std::optional<std::string> _before;
 };
 
-void writeTile(Writer& out, const BinIndex::Entry& tile) {
-    const bool isValid = tile.bin.valid();
+// A tile as it is in the file.
+struct TileNumbers {
+    double south = 0.0, north = 0.0, west = 0.0, east = 0.0;
+    float low = 0.0f, high = 0.0f, margin = 0.0f, sag = 0.0f, ownLow = 0.0f;
+    std::uint32_t flags = 0;
+    std::uint64_t fingerprint = 0;
+
+    // Writes or reads them.
+    template <class Stream>
+    void pass(Stream& s) {
+        s.numbers(south, north, west, east, low, high, margin, sag, ownLow, flags, fingerprint);
+    }
+};
+
+TileNumbers numbersOf(const BinIndex::Entry& tile) {
+    TileNumbers n;
+    n.ownLow = static_cast<float>(tile.ownLow);
+    n.fingerprint = tile.fingerprint;
     // an empty bin has infinite bounds
-    const core::GeodeticBin bin = isValid ? tile.bin.bin() : core::GeodeticBin({0, 0}, {0, 0}, {0, 0});
-    for (const core::Interval& angles : {bin.latitude(), bin.longitude()}) {
-        out.number(angles.lower);
-        out.number(angles.upper);
-    }
-    out.metres(bin.altitude().lower);
-    out.metres(bin.altitude().upper);
-    out.metres(isValid ? tile.bin.margin() : 0.0);
-    out.metres(isValid ? tile.bin.sag() : 0.0);
-    out.metres(tile.ownLow);
-    out.number(isValid ? kValid : 0u);
-    out.number(tile.fingerprint);
+    if (!tile.bin.valid()) return n;
+    const core::GeodeticBin& bin = tile.bin.bin();
+    n.south = bin.latitude().lower, n.north = bin.latitude().upper;
+    n.west = bin.longitude().lower, n.east = bin.longitude().upper;
+    n.low = static_cast<float>(bin.altitude().lower), n.high = static_cast<float>(bin.altitude().upper);
+    n.margin = static_cast<float>(tile.bin.margin()), n.sag = static_cast<float>(tile.bin.sag());
+    n.flags = kValid;
+    return n;
 }
 
-core::Interval readAngles(Reader& in) {
-    const auto lower = in.number<double>();
-    const auto upper = in.number<double>();
-    return {lower, upper};
-}
-
-AnalyticBin checkedBin(const core::GeodeticBin& bin, double margin, double sag, const core::Interval& longitude) {
-    const bool isRight = !bin.empty() && std::isfinite(margin) && std::isfinite(sag) && margin >= 0.0 && sag >= 0.0 &&
-                         std::abs(longitude.lower) <= kMostLongitude && std::abs(longitude.upper) <= kMostLongitude;
-    if (!isRight) throw Refusal{kDamaged};
-    AnalyticBin result(bin, margin);
-    result.setSag(sag);
-    return result;
-}
-
-BinIndex::Entry readTile(Reader& in) {
-    const core::Interval latitude = readAngles(in);
-    const core::Interval longitude = readAngles(in);
-    const double low = in.metres();
-    const double high = in.metres();
-    const double margin = in.metres();
-    const double sag = in.metres();
+BinIndex::Entry entryFrom(const TileNumbers& n) {
     BinIndex::Entry tile;
-    tile.ownLow = in.metres();
-    const auto flags = in.number<std::uint32_t>();
-    tile.fingerprint = in.number<std::uint64_t>();
-    if (!std::isfinite(tile.ownLow) || (flags & ~kValid) != 0) throw Refusal{kDamaged};
-    if (flags & kValid) {
-        tile.bin = checkedBin(core::GeodeticBin(latitude, longitude, {low, high}), margin, sag, longitude);
-    }
+    tile.ownLow = static_cast<double>(n.ownLow);
+    tile.fingerprint = n.fingerprint;
+    if (!std::isfinite(n.ownLow) || (n.flags & ~kValid) != 0) throw Refusal{kDamaged};
+    if (n.flags == 0) return tile;
+    const core::Interval altitude{static_cast<double>(n.low), static_cast<double>(n.high)};
+    const core::GeodeticBin bin({n.south, n.north}, {n.west, n.east}, altitude);
+    const bool isRight = !bin.empty() && std::isfinite(n.margin) && std::isfinite(n.sag) && n.margin >= 0.0f &&
+                         n.sag >= 0.0f && std::abs(n.west) <= kMostLongitude && std::abs(n.east) <= kMostLongitude;
+    if (!isRight) throw Refusal{kDamaged};
+    tile.bin = AnalyticBin(bin, static_cast<double>(n.margin));
+    tile.bin.setSag(static_cast<double>(n.sag));
     return tile;
-}
-
-std::size_t sharedBytes(const std::string& a, const std::string& b) {
-    const auto ends =
-        std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
-    return static_cast<std::size_t>(ends.first - a.begin());
-}
-
-// Of a sorted list of names: a name, after the bytes that it shares with the one before. `tiles`: a number between.
-void writeName(Writer& out, const std::string& before, const std::string& name, const std::uint32_t* tiles = nullptr) {
-    const std::size_t shared = sharedBytes(before, name);
-    out.number(static_cast<std::uint32_t>(shared));
-    out.number(static_cast<std::uint32_t>(name.size() - shared));
-    if (tiles) out.number(*tiles);
-    out.bytes(std::string_view(name).substr(shared));
-}
-
-// `before`: null for the first name.
-std::string readName(Reader& in, const std::string* before, std::uint32_t* tiles = nullptr) {
-    const auto shared = in.number<std::uint32_t>();
-    const auto further = in.number<std::uint32_t>();
-    if (tiles) *tiles = in.number<std::uint32_t>();
-    if (shared > (before ? before->size() : 0) || further > kLongestName) throw Refusal{kDamaged};
-    std::string name = before ? before->substr(0, shared) : std::string();
-    name += in.bytes(further);
-    if (name.size() > kLongestName || (before && name <= *before)) throw Refusal{kDamaged};
-    return name;
-}
-
-void writeStamps(Writer& out, const BinIndex::Stamps& stamps) {
-    out.number(static_cast<std::uint64_t>(stamps.size()));
-    std::string before;
-    for (const auto& [name, stamp] : stamps) {
-        writeName(out, before, name);
-        out.number(stamp.size);
-        out.number(stamp.time);
-        out.number(stamp.nanoseconds);
-        before = name;
-    }
-    out.number(out.checksum());
-}
-
-BinIndex::Stamps readStamps(Reader& in) {
-    BinIndex::Stamps stamps;
-    const auto files = in.number<std::uint64_t>();
-    for (std::uint64_t i = 0; i < files; ++i) {
-        const std::string name = readName(in, stamps.empty() ? nullptr : &stamps.rbegin()->first);
-        BinIndex::Stamp stamp;
-        stamp.size = in.number<std::uint64_t>();
-        stamp.time = in.number<std::int64_t>();
-        stamp.nanoseconds = in.number<std::int64_t>();
-        stamps.emplace_hint(stamps.end(), name, stamp);
-    }
-    return stamps;
-}
-
-void requireChecksum(Reader& in) {
-    const std::uint32_t checksum = in.checksum();
-    if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};
-}
-
-// The files with the numbers of their tiles.
-using FileHeads = std::vector<std::pair<std::string, std::uint32_t>>;
-
-FileHeads readFileHeads(Reader& in, std::uint64_t files, std::uint64_t tiles) {
-    FileHeads heads;
-    std::uint64_t sum = 0;
-    for (std::uint64_t i = 0; i < files; ++i) {
-        std::uint32_t count = 0;
-        std::string name = readName(in, heads.empty() ? nullptr : &heads.back().first, &count);
-        heads.emplace_back(std::move(name), count);
-        sum += count;
-    }
-    if (sum != tiles) throw Refusal{kDamaged};
-    return heads;
 }
 
 void requireMagic(Reader& in) {
     for (const char byte : BinIndex::kMagic) {
-        if (static_cast<char>(in.number<std::uint8_t>()) != byte) throw Refusal{"is another kind of file"};
+        if (in.bytes(1).front() != byte) throw Refusal{"is another kind of file"};
     }
+}
+
+BinIndex::Stamps readStamps(Reader& in) {
+    BinIndex::Stamps stamps;
+    std::uint64_t files = 0;
+    in.numbers(files);
+    for (std::uint64_t i = 0; i < files; ++i) {
+        BinIndex::Stamp& stamp = stamps[in.name()];
+        in.numbers(stamp.size, stamp.time, stamp.nanoseconds);
+    }
+    if (stamps.empty()) throw Refusal{kDamaged};
+    return stamps;
 }
 
 osg::ref_ptr<BinIndex> readIndex(std::istream& stream) {
     Reader in(stream);
     requireMagic(in);
-    if (in.number<std::uint32_t>() != kVersion) throw Refusal{"is of another version than this program reads"};
-    const auto nameBytes = in.number<std::uint32_t>();
+    std::uint32_t version = 0, nameBytes = 0;
+    in.numbers(version);
+    if (version != kVersion) throw Refusal{"is of another version than this program reads"};
+    in.numbers(nameBytes);
     if (nameBytes > kLongestName) throw Refusal{kDamaged};
     BinIndex::Source source;
-    source.size = in.number<std::uint64_t>();
-    source.time = in.number<std::int64_t>();
-    const auto files = in.number<std::uint64_t>();
-    const auto tiles = in.number<std::uint64_t>();
+    std::uint64_t files = 0, tiles = 0, sum = 0;
+    in.numbers(source.size, source.time, files, tiles);
     source.name = in.bytes(nameBytes);
+    std::vector<std::pair<std::string, std::uint32_t>> counts;  // of the tiles of each file
+    for (std::uint64_t i = 0; i < files; ++i) {
+        std::uint32_t count = 0;
+        std::string name = in.name(count);
+        counts.emplace_back(std::move(name), count);
+        sum += count;
+    }
+    if (sum != tiles) throw Refusal{kDamaged};
 
     osg::ref_ptr<BinIndex> index = new BinIndex;
     index->setSource(source);
-    for (const auto& [name, count] : readFileHeads(in, files, tiles)) {
+    for (const auto& [name, count] : counts) {
         std::vector<BinIndex::Entry> entries;
-        for (std::uint32_t i = 0; i < count; ++i) entries.push_back(readTile(in));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            TileNumbers numbers;
+            numbers.pass(in);
+            entries.push_back(entryFrom(numbers));
+        }
         index->setTiles(name, std::move(entries));
     }
-    requireChecksum(in);
-    if (stream.peek() == std::istream::traits_type::eof()) return index;
+    in.checksum();
+    if (in.isAtEnd()) return index;
     index->setStamps(readStamps(in));
-    requireChecksum(in);
-    if (index->stamps().empty()) throw Refusal{kDamaged};
-    if (stream.peek() != std::istream::traits_type::eof()) throw Refusal{"goes on after its end"};
+    in.checksum();
+    if (!in.isAtEnd()) throw Refusal{"goes on after its end"};
     return index;
 }
 
@@ -296,24 +281,22 @@ osg::ref_ptr<BinIndex> BinIndex::read(const std::string& path, std::string& erro
 bool BinIndex::write(std::ostream& stream) const {
     Writer out(stream);
     out.bytes(BinIndex::kMagic);
-    out.number(kVersion);
-    out.number(static_cast<std::uint32_t>(_source.name.size()));
-    out.number(_source.size);
-    out.number(_source.time);
-    out.number(static_cast<std::uint64_t>(fileCount()));
-    out.number(static_cast<std::uint64_t>(tileCount()));
+    out.numbers(kVersion, static_cast<std::uint32_t>(_source.name.size()), _source.size, _source.time,
+                std::uint64_t{fileCount()}, std::uint64_t{tileCount()});
     out.bytes(_source.name);
-    std::string before;
-    for (const auto& [name, tiles] : _files) {
-        const auto count = static_cast<std::uint32_t>(tiles.size());
-        writeName(out, before, name, &count);
-        before = name;
-    }
+    for (const auto& [name, tiles] : _files) out.name(name, static_cast<std::uint32_t>(tiles.size()));
     for (const auto& file : _files) {
-        for (const Entry& tile : file.second) writeTile(out, tile);
+        for (const Entry& tile : file.second) numbersOf(tile).pass(out);
     }
-    out.number(out.checksum());
-    if (!_stamps.empty()) writeStamps(out, _stamps);
+    out.checksum();
+    if (!_stamps.empty()) {
+        out.numbers(std::uint64_t{_stamps.size()});
+        for (const auto& [name, stamp] : _stamps) {
+            out.name(name);
+            out.numbers(stamp.size, stamp.time, stamp.nanoseconds);
+        }
+        out.checksum();
+    }
     return static_cast<bool>(stream);
 }
 
