@@ -499,7 +499,7 @@ FAULTS = [
           "isOneOf<osg::Group, osg::CoordinateSystemNode, osgTerrain::Terrain>(node)",
           "isOneOf<osg::Group, osg::CoordinateSystemNode>(node)", SCENES, NAMED),
     Fault("occlusion: two posts of four count", "src/core/occlusion/GridPlates.cpp",
-          "Interval{std::min(west, east),", "Interval{std::min(west, west + 0.0 * east),", CORE, "GroundPlates.*"),
+          "push_back({std::min(low, lowEast),", "push_back({std::min(low, low + 0.0 * lowEast),", CORE, "GroundPlates.*"),
     Fault("occlusion: chords of grids may cut their rims", "src/core/occlusion/GridPlates.cpp",
           "if (!isWithinRims) return;", "", CORE, "GroundPlates.*"),
     Fault("occlusion: bins are the hull of their corners", "src/core/occlusion/BinBody.cpp",

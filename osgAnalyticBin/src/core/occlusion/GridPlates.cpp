@@ -16,44 +16,22 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// The cells between four posts each.
-class PostCells {
-public:
-    PostCells(const GeodeticGrid& grid, const std::vector<double>& altitudes) : _grid(grid), _altitudes(altitudes) {}
-
-    // Calls visit(row, column, altitudes of the four posts), rows from south to north.
-    template <class Visit>
-    void forEach(Visit&& visit) const {
-        for (std::size_t row = 0; row + 1 < _grid.rows; ++row) {
-            const double* const south = &_altitudes[row * _grid.columns];
-            const double* const north = south + _grid.columns;
-            for (std::size_t column = 0; column + 1 < _grid.columns; ++column) {
-                const double west = std::min(south[column], north[column]);
-                const double east = std::min(south[column + 1], north[column + 1]);
-                const double highWest = std::max(south[column], north[column]);
-                const double highEast = std::max(south[column + 1], north[column + 1]);
-                visit(row, column, Interval{std::min(west, east), std::max(highWest, highEast)});
-            }
+// What is between the four posts of each cell, row by row from the south-west.
+std::vector<Interval> cellsOf(const GeodeticGrid& grid, const std::vector<double>& altitudes) {
+    std::vector<Interval> cells;
+    cells.reserve((grid.rows - 1) * (grid.columns - 1));
+    for (std::size_t row = 0; row + 1 < grid.rows; ++row) {
+        const double* const south = &altitudes[row * grid.columns];
+        const double* const north = south + grid.columns;
+        for (std::size_t column = 0; column + 1 < grid.columns; ++column) {
+            const double low = std::min(south[column], north[column]), high = std::max(south[column], north[column]);
+            const double lowEast = std::min(south[column + 1], north[column + 1]);
+            const double highEast = std::max(south[column + 1], north[column + 1]);
+            cells.push_back({std::min(low, lowEast), std::max(high, highEast)});
         }
     }
-
-    // Of all posts.
-    [[nodiscard]] Interval altitude() const {
-        const auto [least, greatest] = std::minmax_element(_altitudes.begin(), _altitudes.end());
-        return {*least, *greatest};
-    }
-    // The largest within one cell.
-    [[nodiscard]] double rise() const {
-        double most = 0.0;
-        forEach(
-            [&most](std::size_t, std::size_t, const Interval& altitude) { most = std::max(most, altitude.width()); });
-        return most;
-    }
-
-private:
-    const GeodeticGrid& _grid;
-    const std::vector<double>& _altitudes;
-};
+    return cells;
+}
 
 // What each row or column of cells between posts reaches into.
 std::vector<MetCells> metBy(const Interval& extents, std::size_t posts, double reach) {
@@ -76,8 +54,13 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const bool isFinite = std::all_of(altitudes.begin(), altitudes.end(), [](double h) { return std::isfinite(h); });
     if (!isFinite || grid.columns < 3 || grid.rows < 3 || !mayStandBeside(margin)) return;
 
-    const PostCells cells(grid, altitudes);
-    const Interval altitude = cells.altitude();
+    const std::vector<Interval> cells = cellsOf(grid, altitudes);
+    Interval altitude = Interval::none();
+    double rise = 0.0;
+    for (const Interval& cell : cells) {
+        altitude = altitude.united(cell);
+        rise = std::max(rise, cell.width());
+    }
     const double radius = 0.9 * smallestCurvatureRadius(ellipsoid);
     const double along = grid.latitude.width() / static_cast<double>(grid.rows - 1);
     const double across = grid.longitude.width() / static_cast<double>(grid.columns - 1);
@@ -87,7 +70,7 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const double farthest = largestCurvatureRadius(ellipsoid) + std::max(altitude.upper, 0.0);
     // along the surface from post to post
     const double walk = farthest * std::hypot(along, std::cos(equatorward) * across);
-    const double rise = cells.rise(), longest = walk + rise;
+    const double longest = walk + rise;
     const TriangleSides sides = TriangleSides::atAnyPoint(longest, walk, rise, radius);
     const double axisDistance = 0.95 * radius * std::cos(poleward);
     const TriangleReach reach(sides, ellipsoid, radius, axisDistance);
@@ -100,10 +83,11 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const std::vector<MetCells> rows = metBy(grid.latitude, grid.rows, reach.aside);
     const std::vector<MetCells> columns = metBy(grid.longitude, grid.columns, reach.around);
     PlateBounds found;
-    cells.forEach([&](std::size_t row, std::size_t column, const Interval& between) {
-        found.lower(rows[row], columns[column], between.lower - reach.sag);
-        found.raise(rows[row], columns[column], between.upper);
-    });
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::size_t row = i / (grid.columns - 1), column = i % (grid.columns - 1);
+        found.lower(rows[row], columns[column], cells[i].lower - reach.sag);
+        found.raise(rows[row], columns[column], cells[i].upper);
+    }
     encode(found, margin);
     if (!mayHang(skirt)) _most.fill(0);
 }
