@@ -158,9 +158,13 @@ def main():
                         help="scratch folder for the copy and its build (default build/mutants)")
     parser.add_argument("--only", default="", help="the faults alone whose name or file has this")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="copies tried at once (default: one per core)")
+    parser.add_argument("--after", type=pathlib.Path, help="what an earlier run printed: leaves out what was noticed then")
     parser.add_argument("--list", action="store_true", help="name the faults, and do nothing")
     arguments = parser.parse_args()
     faults = [fault for fault in FAULTS if arguments.only in fault.name or arguments.only in fault.file]
+    if arguments.after:
+        before = arguments.after.read_text(encoding="utf-8")
+        faults = [fault for fault in faults if f"noticed   {fault.name} (" not in before]
     if not faults:
         parser.error(f"no fault has \"{arguments.only}\" in its name or file")
     if arguments.list:
