@@ -688,6 +688,11 @@ FAULTS = [
           "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
 
     # files and frames
+    Fault("an application's reader is asked where OSG's comes later", "src/kit/TileFile.cpp",
+          "return count == 1 ? first : nullptr;", "return first;", NODE, "Paging.*"),
+    Fault("whoever is first reads native files as streams", "src/kit/TileFile.cpp",
+          'if (!first || std::string("OpenSceneGraph Native Format Reader/Writer") != first->className()) return nullptr;',
+          "if (!first) return nullptr;", NODE, "Paging.*"),
     Fault("bins are installed on what OSG's cache keeps", "src/kit/database/BinReadFileCallback.cpp",
           "plain->getObjectCacheHint() & ~osgDB::Options::CACHE_NODES;", "plain->getObjectCacheHint();", NODE, "ObjectCache.*"),
     Fault("bins are installed on what a read callback keeps", "src/kit/database/BinReadFileCallback.cpp",
