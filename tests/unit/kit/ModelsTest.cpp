@@ -83,6 +83,22 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     EXPECT_FALSE(moving.isLookedAt(*moving.models.model));
 }
 
+// Models move up among the children where one before them is taken away.
+TEST(Models, AreLeftToOsgWhereOthersComeAndGo) {
+    GlobeWithModels globe;
+    const Models first;
+    globe.root->addChild(first.group);
+    globe.root->addChild(globe.models.group);
+    globe.install();
+    const Models newcomer;
+    globe.root->removeChild(first.group);
+    globe.root->addChild(newcomer.group);
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+    globe.settle();
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+    EXPECT_FALSE(globe.isLookedAt(*newcomer.model));
+}
+
 // What adds to a tile's own mesh does not cover anything.
 TEST(Models, InAFileThatAddsToATileAreLeftToOsg) {
     GlobeWithModels globe;
