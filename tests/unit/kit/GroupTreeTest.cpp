@@ -171,21 +171,41 @@ TEST(ShownDepth, IsThatOfABasinThatLinesOfSightPassHighAboveAndNeverLowerThanDec
     }
 }
 
+struct KnownDatabase : InstalledDatabase {
+    KnownDatabase() : InstalledDatabase(new osg::EllipsoidModel) {}
+};
+
 // The system may give it the address of one that is gone.
 TEST(LastViews, OfADatabaseAreForgottenWithIt) {
-    struct Known : InstalledDatabase {
-        Known() : InstalledDatabase(new osg::EllipsoidModel) {}
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    CullTraversal& traversal = CullTraversal::of(*visitor);
+    osg::ref_ptr<KnownDatabase> database = new KnownDatabase;
+    traversal.lastView(*database, *visitor).depth = 1000.0;
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 1000.0);
+    const KnownDatabase* const before = database;
+    database = nullptr;
+    std::vector<osg::ref_ptr<KnownDatabase>> others;
+    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new KnownDatabase);
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 0.0);
+}
+
+// What hides terrain may have a thread.
+TEST(LastViews, OfADatabaseThatIsGoneAreForgottenWithTheNextThatComes) {
+    struct NoHider : TerrainHider {
+        Hidden find(const View&, const std::vector<ShownTile>&) override { return {}; }
+        bool hidesBall(const glm::dvec3&, double, bool) override { return false; }
     };
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     CullTraversal& traversal = CullTraversal::of(*visitor);
-    osg::ref_ptr<Known> database = new Known;
-    traversal.lastView(*database, *visitor).depth = 1000.0;
-    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 1000.0);
-    const Known* const before = database;
-    database = nullptr;
-    std::vector<osg::ref_ptr<Known>> others;
-    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new Known);
-    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 0.0);
+    osg::ref_ptr<KnownDatabase> gone = new KnownDatabase;
+    const osg::ref_ptr<KnownDatabase> stays = new KnownDatabase, comes = new KnownDatabase;
+    const osg::ref_ptr<TerrainHider> ofGone = new NoHider, ofStays = new NoHider;
+    traversal.lastView(*gone, *visitor).hider = ofGone;
+    traversal.lastView(*stays, *visitor).hider = ofStays;
+    gone = nullptr;
+    (void)traversal.lastView(*comes, *visitor);
+    EXPECT_EQ(ofGone->referenceCount(), 1);
+    EXPECT_EQ(traversal.lastView(*stays, *visitor).hider, ofStays);
 }
 
 }  // namespace
