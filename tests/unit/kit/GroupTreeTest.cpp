@@ -65,6 +65,24 @@ TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
     }
 }
 
+// A search passes over models. They stand where OSG's spheres say.
+TEST(GroupTree, HoldsNoModelsAndDrawsThemWhereverTheyStand) {
+    GroupTree tree;
+    const osg::Vec3d inTheAir = ecefDeg(22.5, -22.5, 1e6);
+    const auto model = makeGroup({makeTower(inTheAir)});
+    tree.groups[0]->addChild(model);
+    for (const bool isInstalledAgain : {false, true}) {
+        if (isInstalledAgain) installBins(*tree.root);
+        tree.expectDrawn(*model, beside(inTheAir));
+        EXPECT_TRUE(tree.columnsBelow(*tree.groups[0])) << isInstalledAgain;
+    }
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, -20, -19), 0.0);
+    ASSERT_EQ(addTile(*tree.root, *tile), 1u);
+    model->addChild(tile);
+    tree.expectDrawn(*model, beside(inTheAir));
+    EXPECT_FALSE(tree.columnsBelow(*tree.groups[0]));
+}
+
 class InstalledTiles : public ::testing::Test {
 protected:
     InstalledTiles() {

@@ -81,7 +81,9 @@ TileSelection::Number SelectionWalk::selectBelow(osg::Group& group, const TileFa
 }
 
 void SelectionWalk::selectChildren(osg::Group& group, const TileFamily* family) {
-    if (family && !_toEcef && isPassedOver(group, *family)) return;
+    const bool isPassed = _searches && family && !_toEcef && isPassedOver(group, *family);
+    const Scoped searches(_searches, _searches && !isPassed);
+    if (!_searches && !_keeps) return;
     const bool isFamily = family && !_toEcef && family->culls(group, _view);
     if (family && family->hasLost(group, isFamily)) doubt();
     if (isFamily && _keeps && _segment == TileSelection::kNone) return void(selectBelow(group, *family));
@@ -365,7 +367,7 @@ void SelectionWalk::selectNode(osg::Node& node) {
 void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     osg::Group& group = *node.asGroup();
     // without evidence OSG's sphere is enough
-    if (_searches && family && isPassedOver(group, *family)) return;
+    const Scoped searches(_searches, _searches && !(family && isPassedOver(group, *family)));
     const bool isTooSmall = _searches && !_isBelowOutOfView && isSmallFeature(node);
     const Scoped doubtful(_isDoubtful, _isDoubtful || isTooSmall);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (_searches && isLeftOut(node)));

@@ -81,8 +81,9 @@ TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
     addOthers(group, old);
-    const bool areAllAbove = std::find(_nodes.begin(), _nodes.end(), nullptr) == _nodes.end();
-    if (_hasOthers || !areAllAbove) _block->columnUnion().addDoubts(1);
+    bool areAllKnown = !_hasOthers;
+    for (std::size_t i = 0; i < _nodes.size(); ++i) areAllKnown = areAllKnown && (_nodes[i] || _isWithoutTiles[i]);
+    if (!areAllKnown) _block->columnUnion().addDoubts(1);
 }
 
 bool TileFamily::place(osg::Node& node, bool isAdded) {
@@ -107,8 +108,11 @@ void TileFamily::remove(osg::Node& node) {
 void TileFamily::expectTilesBelow(osg::Node& node) {
     for (osg::Group* const parent : node.getParents()) {
         const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(parent->getCullCallback());
-        for (std::size_t i = 0; family && i < family->_children.size(); ++i)
-            if (family->_children[i] == &node) family->_isWithoutTiles[i] = false;
+        for (std::size_t i = 0; family && i < family->_children.size(); ++i) {
+            if (family->_children[i] != &node || !family->_isWithoutTiles[i]) continue;
+            family->_isWithoutTiles[i] = false;
+            family->_block->columnUnion().addDoubts(1);
+        }
         expectTilesBelow(*parent);
     }
 }
@@ -143,11 +147,6 @@ bool TileFamily::renewInPlace(osg::Group& group) {
         if (!isWithoutTiles(i, *child, moved) && firstTile(*child)) return false;
         areModels[i] = true;
     }
-    // models leave the union of columns in doubt
-    const auto hasModels = [](const std::vector<bool>& is) {
-        return std::find(is.begin(), is.end(), true) != is.end();
-    };
-    if (hasModels(areModels) != hasModels(_isWithoutTiles)) return false;
     _isWithoutTiles = std::move(areModels);
     _nodes.resize(count);
     _tiles.resize(count);
@@ -157,6 +156,7 @@ bool TileFamily::renewInPlace(osg::Group& group) {
         const auto* const tile = _tiles[i].callback();
         if (tile && tile->getInstalledTile()->has(InstalledTile::MeshUnread)) _tiles[i] = FamilyTile(*_nodes[i], *tile);
     }
+    if (_isDoubted.exchange(false)) _block->columnUnion().addDoubts(-1);
     return true;
 }
 
@@ -237,7 +237,7 @@ const TileFamily* TileFamily::of(const osg::Node& group) {
 void TileFamily::look(const osg::Node& node) {
     const TileFamily* const family = of(node);
     if (!family || !family->hasChanged(*node.asGroup())) return;
-    if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
+    if (!family->_isDoubted.exchange(true)) family->_block->columnUnion().addDoubts(1);
 }
 
 const ColumnUnion* TileFamily::columnUnion(const osg::Group& group) const {

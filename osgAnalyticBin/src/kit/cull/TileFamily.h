@@ -16,6 +16,7 @@
 #include <osg/NodeCallback>
 #include <osg/PagedLOD>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -117,7 +118,8 @@ public:
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
     static void look(const osg::Node& node);
 
-    /// In a tree of groups: holds the columns of all tiles below the group. Returns: nullptr where there may be others.
+    /// In a tree of groups: holds the columns of all tiles below the group, and of no models. Returns: nullptr where
+    /// there may be other tiles.
     [[nodiscard]] const ColumnUnion* columnUnion(const osg::Group& group) const;
     /// The same for the family of any group. Returns: nullptr also where the group has no family.
     [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
@@ -151,7 +153,7 @@ private:
     // `old`: the family in whose place this one comes; null: none.
     TileFamily(osg::Group& group, const TileFamily* old);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
-    // Returns: false, and does nothing, unless the group has the same tiles in the same places, and models as before.
+    // Returns: false, and does nothing, unless the group has the same tiles in the same places.
     [[nodiscard]] bool renewInPlace(osg::Group& group);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
     void addOthers(osg::Group& group, const TileFamily* old);
@@ -165,6 +167,7 @@ private:
     bool _hasGroups = false;
     bool _hasOthers = false;  // above tiles that are not tested here
     bool _hasLostTiles = false;
+    mutable std::atomic<bool> _isDoubted{false};  // its columns, because children have changed
     osg::ref_ptr<TileBlock> _block;
     // one for each child
     // null: the child is no tile and has none below it; references, so that no address is used again
