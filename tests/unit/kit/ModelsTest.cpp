@@ -274,6 +274,24 @@ TEST(Rest, IsForEachOfManyDatabases) {
     EXPECT_TRUE(globe.rests(ofAllTiles()));
 }
 
+// What stands below transforms is searched node by node.
+TEST(Rest, IsWhereTheSearchTakesLongerThanItSaves) {
+    RestingGlobe globe(declaredHorizon());
+    ASSERT_FALSE(globe.rests(ofAllTiles()));
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    for (osg::ref_ptr<osg::Node> node : globe.tiles) {
+        for (int i = 0; i < 16; ++i) {
+            const osg::ref_ptr<osg::Group> above = new osg::MatrixTransform;
+            above->addChild(node);
+            node = above;
+        }
+        globe.root->addChild(node);
+    }
+    globe.install(declaredHorizon());
+    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+}
+
 // OSG's spheres are those of the terrain without it.
 TEST(Rest, IsNotForTerrainWithAVerticalScale) {
     RestingGlobe globe(optionsOf("horizon=off"));

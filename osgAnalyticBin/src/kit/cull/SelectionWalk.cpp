@@ -366,6 +366,7 @@ void SelectionWalk::selectNode(osg::Node& node) {
 // A plain group, which OSG tests by its sphere.
 void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     osg::Group& group = *node.asGroup();
+    if (_searches && _view.gain) ++_view.gain->visits;
     // without evidence OSG's sphere is enough
     const Scoped searches(_searches, _searches && !(family && isPassedOver(group, *family)));
     const bool isTooSmall = _searches && !_isBelowOutOfView && isSmallFeature(node);
