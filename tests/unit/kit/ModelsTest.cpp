@@ -140,6 +140,22 @@ TEST(TilesAmongModels, AreLookedForAfterTheNextUpdate) {
     }
 }
 
+// Its frame is moved, and nothing below that changes.
+TEST(Models, WithMovingPartsAreDrawnWhereTheyAreMovedTo) {
+    MeshGlobe globe;
+    setFinerWithin(*globe.tiles[19], 1e9f);
+    const osg::Vec3d inTheAir = ecefDeg(20, 60, 1e5);
+    const osg::ref_ptr<osg::MatrixTransform> rotor = makeTower({}), hull = makeTower({}), vehicle = makeTower({});
+    rotor->setDataVariance(osg::Object::DYNAMIC);
+    vehicle->setMatrix(osg::Matrixd::translate(ecefDeg(20, -20, 100.0)));
+    vehicle->setChild(0, makeGroup({rotor, hull}));
+    putBelow(*globe.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), vehicle}).release());
+    installBins(*globe.root);
+    globe.expectDrawn(*hull, downTo(20, -20));
+    vehicle->setMatrix(osg::Matrixd::translate(inTheAir));
+    globe.expectDrawn(*hull, beside(inTheAir));
+}
+
 // A node that counts the kit's visits.
 class Visited : public osg::Group {
 public:

@@ -544,7 +544,8 @@ void ContentWatch::check(const osg::Node& node) const {
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
-        if ((isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
+        // where this node has moved, what looks after itself has moved with it, and is not asked
+        if ((isOwnFrame && isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
         // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, i, true, isDue)) {
