@@ -156,6 +156,23 @@ TEST(Models, WithMovingPartsAreDrawnWhereTheyAreMovedTo) {
     globe.expectDrawn(*hull, beside(inTheAir));
 }
 
+// Its frame is another one then.
+TEST(Models, AreDrawnWhereAnotherTransformTakesThem) {
+    MeshGlobe globe;
+    setFinerWithin(*globe.tiles[19], 1e9f);
+    const osg::Vec3d inTheAir = ecefDeg(20, 60, 1e5);
+    const osg::ref_ptr<osg::MatrixTransform> model = makeTower({}), from = makeTower({}), to = new osg::MatrixTransform;
+    from->setMatrix(osg::Matrixd::translate(ecefDeg(20, -20, 100.0)));
+    from->setChild(0, model);
+    to->setMatrix(osg::Matrixd::translate(inTheAir));
+    putBelow(*globe.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), from, to}).release());
+    installBins(*globe.root);
+    globe.expectDrawn(*model, downTo(20, -20));
+    from->removeChild(model);
+    to->addChild(model);
+    globe.expectDrawn(*model, beside(inTheAir));
+}
+
 // A node that counts the kit's visits.
 class Visited : public osg::Group {
 public:

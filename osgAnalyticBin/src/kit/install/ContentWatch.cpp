@@ -394,6 +394,7 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     remove(node);
     const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
     watch->_node = &node;
+    watch->_in = node.getNumParents() == 1 ? node.getParent(0) : nullptr;
     watch->_above = above;
     watch->_tile = tile;
     watch->_frame = frameOf(node);
@@ -462,7 +463,7 @@ const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
 
 bool ContentWatch::isWatched(const osg::Node& child) const {
     const ContentWatch* const watch = ownWatchOf(child);
-    return watch && watch->_above == _tile;
+    return watch && watch->_above == _tile && (!watch->_in || watch->_in == _node);
 }
 
 // What was noted of a child; nullptr: the bin was not fitted to it. Most stand where they stood, or one place before.
