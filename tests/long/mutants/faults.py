@@ -779,8 +779,6 @@ FAULTS = [
           " && (!watch->_in || watch->_in == _node);", ";", NODE, "Models.*"),
     Fault("models that have moved up are unknown", "src/kit/cull/TileFamily.cpp", "{0, 1, -1, 2, -2, 3, -3}", "{0}", NODE,
           "Models.*"),
-    Fault("newcomers in the places of models are taken for models", "src/kit/cull/TileFamily.cpp",
-          " && firstTile(*child)) return false;", ") areModels[i] = true;", NODE, "TilesAmongModels.*:Models.*:AddedTiles.*"),
     Fault("what is known of a database is kept when it is gone", "src/kit/cull/CullTraversal.cpp",
           "of = of->second.of.valid() ? std::next(of) : _lastViews.erase(of);", "++of;", NODE, "LastViews.*"),
     Fault("families are looked through for each mesh that changes", "src/kit/database/Database.cpp",
