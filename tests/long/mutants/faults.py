@@ -263,7 +263,7 @@ FAULTS = [
     Fault("databases rest though bins gain", "src/kit/cull/DatabaseRest.h", "kShare * saved >= kept", "kShare * saved > 64 * kept",
           NODE, "Rest.*"),
     Fault("databases search whatever it takes", "src/kit/cull/DatabaseRest.h", "visits <= kFewVisits + kVisits * saved",
-          "true", NODE, "Rest.*"),
+          "visits <= kFewVisits + kVisits * saved || visits > 0", NODE, "Rest.*"),
     Fault("databases rest though OSG would leave tiles out", "src/kit/cull/DatabaseRest.h", "mended > 0 || ", "", NODE,
           "Rest.*"),
     Fault("databases never rest", "src/kit/cull/DatabaseRest.h", "? Turn::Bins : Turn::Osg", "? Turn::Bins : Turn::Bins", NODE,
