@@ -3,6 +3,8 @@
 
 #include <osgAnalyticBin/TileFile.h>
 
+#include <OpenThreads/ReentrantMutex>
+#include <OpenThreads/ScopedLock>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
@@ -67,10 +69,26 @@ bool isGuarded(const std::string& fileName, const osgDB::Options* options) {
            nativeFileType(osgDB::getLowerCaseFileExtension(fileName));
 }
 
-ReadResult readGuarded(const std::string& path, const char* fileType, const osgDB::Options* options) {
-    osgDB::ReaderWriter* reader =
-        osgDB::Registry::instance()->getReaderWriterForExtension(osgDB::getLowerCaseFileExtension(path));
-    if (!reader) return ReadResult::FILE_NOT_HANDLED;
+// OSG's own reader. Returns: nullptr where an application has a reader of the same files, which may know them by name.
+osgDB::ReaderWriter* onlyReaderOf(const std::string& extension) {
+    // what OSG keeps for derived classes
+    struct OpenRegistry : public osgDB::Registry {
+        static OpenThreads::ReentrantMutex& mutexOf(osgDB::Registry& registry) {
+            return registry.*(&OpenRegistry::_pluginMutex);
+        }
+    };
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    osgDB::ReaderWriter* const first = registry.getReaderWriterForExtension(extension);
+    if (!first || std::string("OpenSceneGraph Native Format Reader/Writer") != first->className()) return nullptr;
+    const OpenThreads::ScopedLock<OpenThreads::ReentrantMutex> lock(OpenRegistry::mutexOf(registry));
+    const auto& readers = registry.getReaderWriterList();
+    const auto count = std::count_if(readers.begin(), readers.end(),
+                                     [&](const auto& reader) { return reader->acceptsExtension(extension); });
+    return count == 1 ? first : nullptr;
+}
+
+ReadResult readGuarded(osgDB::ReaderWriter& reader, const std::string& path, const char* fileType,
+                       const osgDB::Options* options) {
     const osg::ref_ptr<osgDB::Options> own = options ? options->cloneOptions() : new osgDB::Options;
     own->getDatabasePathList().push_front(osgDB::getFilePath(path));
     own->setPluginStringData("fileType", fileType);
@@ -82,7 +100,7 @@ ReadResult readGuarded(const std::string& path, const char* fileType, const osgD
         in.seekg(0);
         if (compressed) in.exceptions(std::ios::goodbit);
     }
-    return reader->readNode(in, own.get());
+    return reader.readNode(in, own.get());
 }
 
 }  // namespace
@@ -90,8 +108,10 @@ ReadResult readGuarded(const std::string& path, const char* fileType, const osgD
 ReadResult readTileFile(const std::string& fileName, const osgDB::Options* options) {
     if (isGuarded(fileName, options)) {
         const std::string path = osgDB::findDataFile(fileName, options);
-        const char* fileType = nativeFileType(osgDB::getLowerCaseFileExtension(path));
-        if (fileType) return readGuarded(path, fileType, options);
+        const std::string extension = osgDB::getLowerCaseFileExtension(path);
+        const char* const fileType = nativeFileType(extension);
+        osgDB::ReaderWriter* const reader = fileType ? onlyReaderOf(extension) : nullptr;
+        if (reader) return readGuarded(*reader, path, fileType, options);
     }
     return osgDB::Registry::instance()->readNodeImplementation(fileName, options);
 }

@@ -65,6 +65,24 @@ TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
     }
 }
 
+// A search passes over models. They stand where OSG's spheres say.
+TEST(GroupTree, HoldsNoModelsAndDrawsThemWhereverTheyStand) {
+    GroupTree tree;
+    const osg::Vec3d inTheAir = ecefDeg(22.5, -22.5, 1e6);
+    const auto model = makeGroup({makeTower(inTheAir)});
+    tree.groups[0]->addChild(model);
+    for (const bool isInstalledAgain : {false, true}) {
+        if (isInstalledAgain) installBins(*tree.root);
+        tree.expectDrawn(*model, beside(inTheAir));
+        EXPECT_TRUE(tree.columnsBelow(*tree.groups[0])) << isInstalledAgain;
+    }
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, -20, -19), 0.0);
+    ASSERT_EQ(addTile(*tree.root, *tile), 1u);
+    model->addChild(tile);
+    tree.expectDrawn(*model, beside(inTheAir));
+    EXPECT_FALSE(tree.columnsBelow(*tree.groups[0]));
+}
+
 class InstalledTiles : public ::testing::Test {
 protected:
     InstalledTiles() {
@@ -171,21 +189,41 @@ TEST(ShownDepth, IsThatOfABasinThatLinesOfSightPassHighAboveAndNeverLowerThanDec
     }
 }
 
+struct KnownDatabase : InstalledDatabase {
+    KnownDatabase() : InstalledDatabase(new osg::EllipsoidModel) {}
+};
+
 // The system may give it the address of one that is gone.
 TEST(LastViews, OfADatabaseAreForgottenWithIt) {
-    struct Known : InstalledDatabase {
-        Known() : InstalledDatabase(new osg::EllipsoidModel) {}
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    CullTraversal& traversal = CullTraversal::of(*visitor);
+    osg::ref_ptr<KnownDatabase> database = new KnownDatabase;
+    traversal.lastView(*database, *visitor).depth = 1000.0;
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 1000.0);
+    const KnownDatabase* const before = database;
+    database = nullptr;
+    std::vector<osg::ref_ptr<KnownDatabase>> others;
+    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new KnownDatabase);
+    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 0.0);
+}
+
+// What hides terrain may have a thread.
+TEST(LastViews, OfADatabaseThatIsGoneAreForgottenWithTheNextThatComes) {
+    struct NoHider : TerrainHider {
+        Hidden find(const View&, const std::vector<ShownTile>&) override { return {}; }
+        bool hidesBall(const glm::dvec3&, double, bool) override { return false; }
     };
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     CullTraversal& traversal = CullTraversal::of(*visitor);
-    osg::ref_ptr<Known> database = new Known;
-    traversal.lastView(*database, *visitor).depth = 1000.0;
-    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 1000.0);
-    const Known* const before = database;
-    database = nullptr;
-    std::vector<osg::ref_ptr<Known>> others;
-    for (int i = 0; i < 1000 && database != before; ++i) others.push_back(database = new Known);
-    EXPECT_EQ(traversal.lastView(*database, *visitor).depth, 0.0);
+    osg::ref_ptr<KnownDatabase> gone = new KnownDatabase;
+    const osg::ref_ptr<KnownDatabase> stays = new KnownDatabase, comes = new KnownDatabase;
+    const osg::ref_ptr<TerrainHider> ofGone = new NoHider, ofStays = new NoHider;
+    traversal.lastView(*gone, *visitor).hider = ofGone;
+    traversal.lastView(*stays, *visitor).hider = ofStays;
+    gone = nullptr;
+    (void)traversal.lastView(*comes, *visitor);
+    EXPECT_EQ(ofGone->referenceCount(), 1);
+    EXPECT_EQ(traversal.lastView(*stays, *visitor).hider, ofStays);
 }
 
 }  // namespace

@@ -82,6 +82,22 @@ TEST(Models, BesideTilesAreLeftToOsg) {
     EXPECT_FALSE(moving.isLookedAt(*moving.models.model));
 }
 
+// Models move up among the children where one before them is taken away.
+TEST(Models, AreLeftToOsgWhereOthersComeAndGo) {
+    GlobeWithModels globe;
+    const Models first;
+    globe.root->addChild(first.group);
+    globe.root->addChild(globe.models.group);
+    globe.install();
+    const Models newcomer;
+    globe.root->removeChild(first.group);
+    globe.root->addChild(newcomer.group);
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+    globe.settle();
+    EXPECT_FALSE(globe.isLookedAt(*globe.models.model));
+    EXPECT_FALSE(globe.isLookedAt(*newcomer.model));
+}
+
 // What adds to a tile's own mesh does not cover anything.
 TEST(Models, InAFileThatAddsToATileAreLeftToOsg) {
     GlobeWithModels globe;
@@ -121,6 +137,39 @@ TEST(TilesAmongModels, AreLookedForAfterTheNextUpdate) {
         globe.settle();
         EXPECT_TRUE(globe.isLookedAt(*globe.models.model)) << way;
     }
+}
+
+// Its frame is moved, and nothing below that changes.
+TEST(Models, WithMovingPartsAreDrawnWhereTheyAreMovedTo) {
+    MeshGlobe globe;
+    setFinerWithin(*globe.tiles[19], 1e9f);
+    const osg::Vec3d inTheAir = ecefDeg(20, 60, 1e5);
+    const osg::ref_ptr<osg::MatrixTransform> rotor = makeTower({}), hull = makeTower({}), vehicle = makeTower({});
+    rotor->setDataVariance(osg::Object::DYNAMIC);
+    vehicle->setMatrix(osg::Matrixd::translate(ecefDeg(20, -20, 100.0)));
+    vehicle->setChild(0, makeGroup({rotor, hull}));
+    putBelow(*globe.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), vehicle}).release());
+    installBins(*globe.root);
+    globe.expectDrawn(*hull, downTo(20, -20));
+    vehicle->setMatrix(osg::Matrixd::translate(inTheAir));
+    globe.expectDrawn(*hull, beside(inTheAir));
+}
+
+// Its frame is another one then.
+TEST(Models, AreDrawnWhereAnotherTransformTakesThem) {
+    MeshGlobe globe;
+    setFinerWithin(*globe.tiles[19], 1e9f);
+    const osg::Vec3d inTheAir = ecefDeg(20, 60, 1e5);
+    const osg::ref_ptr<osg::MatrixTransform> model = makeTower({}), from = makeTower({}), to = new osg::MatrixTransform;
+    from->setMatrix(osg::Matrixd::translate(ecefDeg(20, -20, 100.0)));
+    from->setChild(0, model);
+    to->setMatrix(osg::Matrixd::translate(inTheAir));
+    putBelow(*globe.tiles[19], makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0), from, to}).release());
+    installBins(*globe.root);
+    globe.expectDrawn(*model, downTo(20, -20));
+    from->removeChild(model);
+    to->addChild(model);
+    globe.expectDrawn(*model, beside(inTheAir));
 }
 
 // A node that counts the kit's visits.
@@ -244,6 +293,24 @@ TEST(Rest, IsForEachOfManyDatabases) {
     }
     globe.scene = all;
     update(*all);
+    EXPECT_TRUE(globe.rests(ofAllTiles()));
+}
+
+// What stands below transforms is searched node by node.
+TEST(Rest, IsWhereTheSearchTakesLongerThanItSaves) {
+    RestingGlobe globe(declaredHorizon());
+    ASSERT_FALSE(globe.rests(ofAllTiles()));
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    for (osg::ref_ptr<osg::Node> node : globe.tiles) {
+        for (int i = 0; i < 16; ++i) {
+            const osg::ref_ptr<osg::Group> above = new osg::MatrixTransform;
+            above->addChild(node);
+            node = above;
+        }
+        globe.root->addChild(node);
+    }
+    globe.install(declaredHorizon());
+    EXPECT_TRUE(globe.testsBins(ofAllTiles(), 1));
     EXPECT_TRUE(globe.rests(ofAllTiles()));
 }
 

@@ -9,6 +9,7 @@
 #include "PagedFlight.h"
 
 #include <osgDB/FileCache>
+#include <osgDB/FileNameUtils>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -144,6 +145,30 @@ TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
         const std::string cut = _folder.write("cut_" + std::to_string(length) + ".osgb", bytes.substr(0, length));
         const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(cut, readOptionsOf(*_paged));
         EXPECT_FALSE(node) << "cut after " << length << " of " << bytes.size() << " bytes";
+    }
+}
+
+// Registered before OSG's own is loaded, or after it. Its files are no native ones, as encrypted files are not.
+TEST_F(Paging, AnApplicationsReaderOfNativeNamesIsAsked) {
+    class ByName : public osgDB::ReaderWriter {
+    public:
+        ByName() { supportsExtension("osgb", "known by name alone"); }
+        ReadResult readNode(const std::string& name, const osgDB::Options*) const override {
+            if (osgDB::getSimpleFileName(name) != "encrypted.osgb") return ReadResult::FILE_NOT_HANDLED;
+            return makeGroup({makePagedTile("grandchildren.osgb")}).get();
+        }
+    };
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    std::ofstream(file("encrypted.osgb")) << "?";
+    for (const bool isFirst : {false, true}) {
+        const osg::ref_ptr<osgDB::ReaderWriter> own = new ByName, osgs = registry.getReaderWriterForExtension("osgb");
+        if (isFirst) registry.removeReaderWriter(osgs);
+        registry.addReaderWriter(own);
+        installBins(*_root);
+        EXPECT_TRUE(osgDB::readRefNodeFile(file("encrypted.osgb"), readOptionsOf(*_paged))) << isFirst;
+        if (isFirst) registry.addReaderWriter(osgs);
+        EXPECT_TRUE(readChildren()) << isFirst;
+        registry.removeReaderWriter(own);
     }
 }
 

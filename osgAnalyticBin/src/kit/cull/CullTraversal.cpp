@@ -7,6 +7,7 @@
 #include "../tile/InstalledDatabase.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace osgAnalyticBin {
 
@@ -60,14 +61,16 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
 }
 
 CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database, const osg::NodeVisitor& visitor) {
-    // those that are gone are not told apart from those out of view
     constexpr std::size_t kMostDatabases = 4096;
-    if (_lastViews.size() >= kMostDatabases && _lastViews.count(&database) == 0) _lastViews.clear();
-    LastViews& last = _lastViews[&database];
-    if (last.of.get() != &database) {
-        last.views.clear();
-        last.of = &database;
+    const auto known = _lastViews.find(&database);
+    if (known == _lastViews.end() || !known->second.of.valid()) {
+        // what is kept of those that are gone may hold threads; the system may give one's address to another
+        for (auto of = _lastViews.begin(); of != _lastViews.end();)
+            of = of->second.of.valid() ? std::next(of) : _lastViews.erase(of);
+        if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
     }
+    LastViews& last = _lastViews[&database];
+    last.of = &database;
     const osg::Camera* const camera = innermostCamera(visitor.getNodePath());
     std::vector<LastView>& views = last.views;
     auto own = std::find_if(views.begin(), views.end(), [camera](const LastView& of) { return of.camera == camera; });

@@ -11,12 +11,15 @@ struct Gain {
     unsigned int saved = 0;   ///< left out, though their spheres are in view
     unsigned int mended = 0;  ///< kept, though their spheres are out of view: OSG would leave them out
     unsigned int direct = 0;  ///< drawn without OSG's traversal of their meshes
+    unsigned int visits = 0;  ///< of nodes that were searched one by one, as tiles below transforms are
 
     void count(bool isKept) { ++(isKept ? kept : saved); }
     /// Whether that is worth more than testing bins takes. Direct drawing has to pay for what is the same in each view.
+    /// Some visits take as long as it takes to draw a tile.
     [[nodiscard]] bool pays() const {
-        constexpr unsigned int kShare = 16, kMany = 16;
-        return mended > 0 || (saved > 0 && kShare * saved >= kept) || direct >= kMany;
+        constexpr unsigned int kShare = 16, kMany = 16, kFewVisits = 64, kVisits = 8;
+        const bool isSearchWorthIt = visits <= kFewVisits + kVisits * saved;
+        return mended > 0 || (isSearchWorthIt && ((saved > 0 && kShare * saved >= kept) || direct >= kMany));
     }
 };
 

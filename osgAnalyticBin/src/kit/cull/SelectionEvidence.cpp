@@ -74,6 +74,7 @@ bool SelectionWalk::mayLeaveOut(const CullCallbacks& callbacks) const {
 // For evidence, below what OSG enters by itself. The families there begin segments.
 void SelectionWalk::searchNode(osg::Node& node) {
     if (!_searches) return;
+    if (_view.gain) ++_view.gain->visits;
     // most nodes that are no tiles are roots of files: plain groups
     const bool isGroup = isExactly<osg::Group>(node);
     const CullCallbacks callbacks(node);

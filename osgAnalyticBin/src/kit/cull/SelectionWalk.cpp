@@ -81,15 +81,18 @@ TileSelection::Number SelectionWalk::selectBelow(osg::Group& group, const TileFa
 }
 
 void SelectionWalk::selectChildren(osg::Group& group, const TileFamily* family) {
-    if (family && !_toEcef && isPassedOver(group, *family)) return;
+    const bool isPassed = _searches && family && !_toEcef && isPassedOver(group, *family);
+    const Scoped searches(_searches, _searches && !isPassed);
+    if (!_searches && !_keeps) return;
     const bool isFamily = family && !_toEcef && family->culls(group, _view);
     if (family && family->hasLost(group, isFamily)) doubt();
     if (isFamily && _keeps && _segment == TileSelection::kNone) return void(selectBelow(group, *family));
     if (isFamily) return selectFamily(group, *family);
     if (family && _keeps && family->hasChanged(group)) _view.database->noteChanged(group);
+    int moved = 0;
     for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
         osg::Node& child = *group.getChild(i);
-        if (!family || !family->isWithoutTiles(i, child)) selectNode(child);
+        if (!family || !family->isWithoutTiles(i, child, moved)) selectNode(child);
     }
 }
 
@@ -133,6 +136,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
     const unsigned int children = group.getNumChildren();
     if (children < family.size()) doubt();
     bool isChanged = children != family.size();
+    int moved = 0;
     if (_keeps) _selection.addFamily(family);
     Siblings siblings{family};
     const TileFamily::Verdicts& verdicts = siblings.verdicts;
@@ -141,7 +145,7 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
         if (verdicts.lacksTiles) doubt();
         isChanged = isChanged || verdicts.lacksTiles;
         siblings.kept = _keeps ? keptOf(family, first, verdicts) : 0;
-        if (first < family.size()) describe(siblings, family.block().partFrom(first));
+        if (first < family.block().size()) describe(siblings, family.block().partFrom(first));
         forEachBit(_view.isCold ? siblings.kept : 0,
                    [&](unsigned int number) { family.tile(first + number).fetch(family.node(first + number)); });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
@@ -150,7 +154,8 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);
             if (hasBit(verdicts.members, number)) return selectMember(child, siblings, first + number);
-            if (!family.isWithoutTiles(first + number, child)) return selectNode(child);
+            isChanged = isChanged || !family.isKnown(first + number, child);
+            if (!family.isWithoutTiles(first + number, child, moved)) return selectNode(child);
             if (_keeps && !isLeftOutAtOnce(child)) (void)keep(child, nullptr, Way::Plain);
         });
     }
@@ -186,7 +191,7 @@ std::uint64_t SelectionWalk::keptOf(const TileFamily& family, unsigned int first
     segment.counts.hidden += countBits(verdicts.members & verdicts.hidden);
     segment.counts.beyondEdge += countBits(verdicts.members & verdicts.separated);
     segment.hides = segment.hides || (verdicts.members & verdicts.hidden) != 0;
-    if (first >= family.size()) return 0;
+    if (first >= family.block().size()) return 0;
     forEachBit(verdicts.members & ~culled & family.block().partFrom(first).withSpheres, [&](unsigned int number) {
         core::PlaneMask undecided = verdicts.planes.undecided[number];
         if (isSphereCulled(cullingSet, undecided, family.node(first + number))) culled |= std::uint64_t{1} << number;
@@ -361,8 +366,9 @@ void SelectionWalk::selectNode(osg::Node& node) {
 // A plain group, which OSG tests by its sphere.
 void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     osg::Group& group = *node.asGroup();
+    if (_searches && _view.gain) ++_view.gain->visits;
     // without evidence OSG's sphere is enough
-    if (_searches && family && isPassedOver(group, *family)) return;
+    const Scoped searches(_searches, _searches && !(family && isPassedOver(group, *family)));
     const bool isTooSmall = _searches && !_isBelowOutOfView && isSmallFeature(node);
     const Scoped doubtful(_isDoubtful, _isDoubtful || isTooSmall);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (_searches && isLeftOut(node)));

@@ -81,8 +81,9 @@ TileFamily::TileFamily(osg::Group& group, const TileFamily* old)
     for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
     addOthers(group, old);
-    const bool areAllAbove = std::find(_nodes.begin(), _nodes.end(), nullptr) == _nodes.end();
-    if (_hasOthers || !areAllAbove) _block->columnUnion().addDoubts(1);
+    bool areAllKnown = !_hasOthers;
+    for (std::size_t i = 0; i < _nodes.size(); ++i) areAllKnown = areAllKnown && (_nodes[i] || _isWithoutTiles[i]);
+    if (!areAllKnown) _block->columnUnion().addDoubts(1);
 }
 
 bool TileFamily::place(osg::Node& node, bool isAdded) {
@@ -107,9 +108,11 @@ void TileFamily::remove(osg::Node& node) {
 void TileFamily::expectTilesBelow(osg::Node& node) {
     for (osg::Group* const parent : node.getParents()) {
         const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(parent->getCullCallback());
-        if (family)
-            std::replace(family->_withoutTiles.begin(), family->_withoutTiles.end(),
-                         static_cast<const osg::Node*>(&node), static_cast<const osg::Node*>(nullptr));
+        for (std::size_t i = 0; family && i < family->_children.size(); ++i) {
+            if (family->_children[i] != &node || !family->_isWithoutTiles[i]) continue;
+            family->_isWithoutTiles[i] = false;
+            family->_block->columnUnion().addDoubts(1);
+        }
         expectTilesBelow(*parent);
     }
 }
@@ -118,7 +121,7 @@ void TileFamily::renew(osg::Node& node) {
     expectTilesBelow(node);
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
     if (!old) (void)place(node, true);
-    if (!old || old->_group != &node || old->renewMeshes(*node.asGroup())) return;
+    if (!old || old->_group != &node || old->renewInPlace(*node.asGroup())) return;
     const osg::ref_ptr<ColumnUnion> above = old->_block->columnUnion().above();
     old->_block->columnUnion().setAbove(nullptr);
     remove(node);
@@ -131,19 +134,41 @@ void TileFamily::renew(osg::Node& node) {
         node.addCullCallback(family);
 }
 
-bool TileFamily::renewMeshes(osg::Group& group) {
-    bool isSame = group.getNumChildren() == _nodes.size();
-    for (unsigned int i = 0; isSame && i < _nodes.size(); ++i) {
-        const osg::Node& child = *group.getChild(i);
-        const auto* const tile = _tiles[i].callback();
-        const bool holds = tile ? tile == installedBinOf(child) : _nodes[i] && holdsTiles(child);
-        isSame = isWithoutTiles(i, child) || (_nodes[i] == &child && holds);
+bool TileFamily::renewInPlace(osg::Group& group) {
+    const unsigned int count = group.getNumChildren();
+    std::vector<bool> areModels(count);
+    int moved = 0;
+    for (unsigned int i = 0; i < count || i < _nodes.size(); ++i) {
+        const osg::Node* const child = i < count ? group.getChild(i) : nullptr;
+        const osg::Node* const node = i < _nodes.size() ? _nodes[i].get() : nullptr;
+        const auto* const tile = node ? _tiles[i].callback() : nullptr;
+        if (node && (node != child || !(tile ? tile == installedBinOf(*child) : holdsTiles(*child)))) return false;
+        if (!child || node) continue;
+        if (!isWithoutTiles(i, *child, moved) && firstTile(*child)) return false;
+        areModels[i] = true;
     }
-    for (std::size_t i = 0; isSame && i < _nodes.size(); ++i) {
+    _isWithoutTiles = std::move(areModels);
+    _nodes.resize(count);
+    _tiles.resize(count);
+    _children.resize(count);
+    for (unsigned int i = 0; i < count; ++i) {
+        _children[i] = group.getChild(i);
         const auto* const tile = _tiles[i].callback();
         if (tile && tile->getInstalledTile()->has(InstalledTile::MeshUnread)) _tiles[i] = FamilyTile(*_nodes[i], *tile);
     }
-    return isSame;
+    if (_isDoubted.exchange(false)) _block->columnUnion().addDoubts(-1);
+    return true;
+}
+
+// Children move where those before them come and go.
+bool TileFamily::isWithoutTiles(unsigned int slot, const osg::Node& child, int& moved) const {
+    for (const int more : {0, 1, -1, 2, -2, 3, -3}) {
+        const auto stood = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(slot) + moved + more);
+        if (!isKnown(stood, child)) continue;
+        moved += more;
+        return _isWithoutTiles[stood];
+    }
+    return false;
 }
 
 bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
@@ -164,9 +189,11 @@ void TileFamily::addOthers(osg::Group& group, const TileFamily* old) {
     std::unordered_set<const osg::Node*> above, without;
     if (old) {
         above.insert(old->_nodes.begin(), old->_nodes.end());
-        without.insert(old->_withoutTiles.begin(), old->_withoutTiles.end());
+        for (std::size_t i = 0; i < old->_children.size(); ++i)
+            if (old->_isWithoutTiles[i]) without.insert(old->_children[i]);
     }
-    _withoutTiles.resize(_nodes.size());
+    _isWithoutTiles.resize(_nodes.size());
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) _children.push_back(group.getChild(i));
     bool hasModels = false;
     for (unsigned int i = 0; i < _nodes.size(); ++i) {
         osg::Node* const child = group.getChild(i);
@@ -175,7 +202,7 @@ void TileFamily::addOthers(osg::Group& group, const TileFamily* old) {
             _nodes[i] = child;
             _hasOthers = true;
         } else if (without.count(child) != 0 || !firstTile(*child)) {
-            _withoutTiles[i] = child;
+            _isWithoutTiles[i] = true;
             hasModels = true;
         }
     }
@@ -187,9 +214,8 @@ void TileFamily::addOthers(osg::Group& group, const TileFamily* old) {
 }
 
 bool TileFamily::hasChanged(const osg::Group& group) const {
-    bool isSame = group.getNumChildren() == _nodes.size();
-    for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i)
-        isSame = !_nodes[i] || group.getChild(i) == _nodes[i];
+    bool isSame = group.getNumChildren() == _children.size();
+    for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i) isSame = group.getChild(i) == _children[i];
     return !isSame;
 }
 
@@ -211,7 +237,7 @@ const TileFamily* TileFamily::of(const osg::Node& group) {
 void TileFamily::look(const osg::Node& node) {
     const TileFamily* const family = of(node);
     if (!family || !family->hasChanged(*node.asGroup())) return;
-    if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
+    if (!family->_isDoubted.exchange(true)) family->_block->columnUnion().addDoubts(1);
 }
 
 const ColumnUnion* TileFamily::columnUnion(const osg::Group& group) const {

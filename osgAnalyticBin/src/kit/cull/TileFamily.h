@@ -16,6 +16,7 @@
 #include <osg/NodeCallback>
 #include <osg/PagedLOD>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -56,8 +57,8 @@ public:
     OSGANALYTICBIN_EXPORT static void expectTilesBelow(osg::Node& node);
 
     /// Rebuilds the family of a group after the application has added, removed or replaced children; places one where
-    /// there was none and the first tile was added. Where meshes of tiles alone have changed, it reads these anew.
-    /// Requires: no cull traversal runs.
+    /// there was none and the first tile was added. Where tiles stand as they stood, it only looks at models that have
+    /// come, and reads meshes anew that have changed. Requires: no cull traversal runs.
     OSGANALYTICBIN_EXPORT static void renew(osg::Node& node);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
@@ -117,7 +118,8 @@ public:
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
     static void look(const osg::Node& node);
 
-    /// In a tree of groups: holds the columns of all tiles below the group. Returns: nullptr where there may be others.
+    /// In a tree of groups: holds the columns of all tiles below the group, and of no models. Returns: nullptr where
+    /// there may be other tiles.
     [[nodiscard]] const ColumnUnion* columnUnion(const osg::Group& group) const;
     /// The same for the family of any group. Returns: nullptr also where the group has no family.
     [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
@@ -125,15 +127,18 @@ public:
     /// Whether a tile, or a node above tiles, was removed from the group since bins were installed: the terrain may
     /// have a hole. `areTilesTested`: test() looks for the tiles of the family.
     [[nodiscard]] bool hasLost(const osg::Group& group, bool areTilesTested) const;
-    /// Whether children were added or taken away since the family was made.
+    /// Whether children were added, taken away or moved since the family was made.
     [[nodiscard]] bool hasChanged(const osg::Group& group) const;
+    /// Whether a child stood there when the family was made.
+    [[nodiscard]] bool isKnown(std::size_t slot, const osg::Node& child) const {
+        return slot < _children.size() && _children[slot] == &child;
+    }
 
     /// Whether a child is no tile and has none below it, as models have none: walks skip it. False in doubt. A tile
     /// that the application puts there without addTile() or installBins() is skipped, too: it hides nothing, and
-    /// terrain does not hide it.
-    [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child) const {
-        return slot < _withoutTiles.size() && _withoutTiles[slot] == &child;
-    }
+    /// terrain does not hide it. `moved`: by how many slots children have moved, for one child after the other; 0 for
+    /// the first.
+    [[nodiscard]] bool isWithoutTiles(unsigned int slot, const osg::Node& child, int& moved) const;
 
     /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
     void noteMemory(Footprint::Notes& notes, const osg::Group& level) const;
@@ -148,8 +153,8 @@ private:
     // `old`: the family in whose place this one comes; null: none.
     TileFamily(osg::Group& group, const TileFamily* old);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
-    // Returns: false, and does nothing, unless the group has the same children and bins.
-    [[nodiscard]] bool renewMeshes(osg::Group& group);
+    // Returns: false, and does nothing, unless the group has the same tiles in the same places.
+    [[nodiscard]] bool renewInPlace(osg::Group& group);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
     void addOthers(osg::Group& group, const TileFamily* old);
     // Of these tiles, those that may be hidden now.
@@ -162,12 +167,14 @@ private:
     bool _hasGroups = false;
     bool _hasOthers = false;  // above tiles that are not tested here
     bool _hasLostTiles = false;
+    mutable std::atomic<bool> _isDoubted{false};  // its columns, because children have changed
     osg::ref_ptr<TileBlock> _block;
     // one for each child
     // null: the child is no tile and has none below it; references, so that no address is used again
     std::vector<osg::ref_ptr<osg::Node>> _nodes;
     std::vector<FamilyTile> _tiles;
-    std::vector<const osg::Node*> _withoutTiles;  // null: there may be tiles
+    std::vector<const osg::Node*> _children;
+    std::vector<bool> _isWithoutTiles;  // false: there may be tiles
     // the same for all tiles
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;

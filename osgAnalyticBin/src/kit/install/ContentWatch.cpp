@@ -394,6 +394,7 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     remove(node);
     const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
     watch->_node = &node;
+    watch->_in = node.getNumParents() == 1 ? node.getParent(0) : nullptr;
     watch->_above = above;
     watch->_tile = tile;
     watch->_frame = frameOf(node);
@@ -462,7 +463,7 @@ const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
 
 bool ContentWatch::isWatched(const osg::Node& child) const {
     const ContentWatch* const watch = ownWatchOf(child);
-    return watch && watch->_above == _tile;
+    return watch && watch->_above == _tile && (!watch->_in || watch->_in == _node);
 }
 
 // What was noted of a child; nullptr: the bin was not fitted to it. Most stand where they stood, or one place before.
@@ -544,7 +545,8 @@ void ContentWatch::check(const osg::Node& node) const {
         const ContentWatch* const watch = ownWatchOf(child);
         if (watch && watch->_isPending) watch->check(child);
         _isPending = _isPending || (watch && watch->_isPending);
-        if ((isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
+        // where this node has moved, what looks after itself has moved with it, and is not asked
+        if ((isOwnFrame && isWatched(child) && !drawsBesideChildren(child)) || !isInTileNow()) continue;
         // OSG does not pass on changes below a node whose bound was never computed
         if (_tile && !isUnchanged) forEachPart(child, [](const osg::Node& part) { (void)part.getBound(); });
         if (isOwnFrame && isFitted(child, i, true, isDue)) {

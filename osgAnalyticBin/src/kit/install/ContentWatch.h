@@ -83,7 +83,7 @@ private:
 
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
-    // Whether a child looks after itself, and is below the same tile as when its watch was placed.
+    // Whether a child looks after itself, and is in the same place, below the same tile, as when its watch was placed.
     [[nodiscard]] bool isWatched(const osg::Node& child) const;
     // `slot`: its number among the children.
     [[nodiscard]] const Fitted* fittedOf(const osg::Node& child, std::size_t slot) const;
@@ -101,6 +101,7 @@ private:
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
     const osg::Node* _node = nullptr;  // the watched one
+    const osg::Node* _in = nullptr;    // its parent then; null: it had none, or several
     std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
     osg::ref_ptr<InstalledTile> _above, _tile;
     std::vector<Fitted> _fitted;
