@@ -38,7 +38,8 @@ inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracle
     }
 }
 
-/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, and slots are empty or cleared.
+/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, and slots are empty or
+/// cleared.
 struct FamilyCase {
     explicit FamilyCase(Random& random)
         : ellipsoid(randomEllipsoid(random)),
