@@ -159,7 +159,8 @@ TEST_F(Paging, AnApplicationsReaderOfNativeNamesIsAsked) {
         }
     };
     osgDB::Registry& registry = *osgDB::Registry::instance();
-    std::ofstream(file("encrypted.osgb")) << "?";
+    // with the head of a native file: for others OSG's reader leaks its options
+    (void)_folder.write("encrypted.osgb", textOfFile(file("children.osgb")).substr(0, 8) + std::string(24, '\0'));
     for (const bool isFirst : {false, true}) {
         const osg::ref_ptr<osgDB::ReaderWriter> own = new ByName, osgs = registry.getReaderWriterForExtension("osgb");
         if (isFirst) registry.removeReaderWriter(osgs);
