@@ -62,15 +62,16 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
 
 CullTraversal::LastView& CullTraversal::lastView(const InstalledDatabase& database, const osg::NodeVisitor& visitor) {
     constexpr std::size_t kMostDatabases = 4096;
-    const auto known = _lastViews.find(&database);
+    auto known = _lastViews.find(&database);
     if (known == _lastViews.end() || !known->second.of.valid()) {
         // what is kept of those that are gone may hold threads; the system may give one's address to another
         for (auto of = _lastViews.begin(); of != _lastViews.end();)
             of = of->second.of.valid() ? std::next(of) : _lastViews.erase(of);
         if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
+        known = _lastViews.try_emplace(&database).first;
+        known->second.of = &database;
     }
-    LastViews& last = _lastViews[&database];
-    last.of = &database;
+    LastViews& last = known->second;
     const osg::Camera* const camera = innermostCamera(visitor.getNodePath());
     std::vector<LastView>& views = last.views;
     auto own = std::find_if(views.begin(), views.end(), [camera](const LastView& of) { return of.camera == camera; });
