@@ -162,11 +162,14 @@ def main():
     parser.add_argument("--list", action="store_true", help="name the faults, and do nothing")
     arguments = parser.parse_args()
     faults = [fault for fault in FAULTS if arguments.only in fault.name or arguments.only in fault.file]
+    if not faults:
+        parser.error(f"no fault has \"{arguments.only}\" in its name or file")
     if arguments.after:
         before = arguments.after.read_text(encoding="utf-8")
         faults = [fault for fault in faults if f"noticed   {fault.name} (" not in before]
-    if not faults:
-        parser.error(f"no fault has \"{arguments.only}\" in its name or file")
+        if not faults:
+            print("that run noticed all of them")
+            return 0
     if arguments.list:
         for fault in faults:
             print(f"{fault.file}: {fault.name}")
