@@ -36,8 +36,7 @@ enum class OcclusionUse {
     Off,  ///< never
     On,   ///< in every frame
     Auto  ///< the default: while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to
-          ///< 256 views. Never twice in succession, a frame is drawn without it while a search for the next one is
-          ///< made.
+          ///< 256 views. A frame may hide nothing while the search for the next one is made.
 };
 
 /// What the osg::ClusterCullingCallbacks of a database do, which may cull visible tiles of an ellipsoid. Those of a map
@@ -70,7 +69,7 @@ struct CullOptions {
     /// Whether tiles across an edge of the frustum are also tested against the edge.
     bool edges = true;
     /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
-    /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
+    /// for tiles whose meshes the kit reads.
     OcclusionUse occlusion = OcclusionUse::Auto;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last in view, when it has more
     /// PagedLODs than its target; 0: OSG's own rule. Times that the database or the application sets stay. Spheres keep

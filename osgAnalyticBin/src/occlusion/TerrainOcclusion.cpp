@@ -273,7 +273,7 @@ public:
         if (_found->isOutdated) left = servedAhead(view, *lines, shown, spanThen);
         if (!left) left = served(*_found, view, *lines, shown, spanThen, _nearMeshes);
         if (!left) left = servedAhead(view, *lines, shown, spanThen);
-        if (!left && view.mayWait && isLeftToNextView(view, *lines, shown, spanThen)) {
+        if (!left && view.mayWait && leaveToNextView(view, *lines, shown, spanThen)) {
             hidden.isAwaited = true;
             hidden.missing = "a search for this view, which is under way";
             noteView(view.eye, spanThen);
@@ -344,15 +344,14 @@ private:
         _found->lastAcross = span.value_or(_found->span).across;
     }
 
-    // Whether the search is made beside the drawing of this view, in which nothing is hidden, for the next one: where a
-    // camera turns faster than before, or clipping planes change, that costs less than to wait. Not twice in
-    // succession, and not after a jump: a picture that stands alone is searched for at once. `spanThen`: as for
-    // servedAhead().
-    [[nodiscard]] bool isLeftToNextView(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
-                                        const std::optional<PictureSpan>& spanThen) {
-        _isLeftToNext = !_isLeftToNext && spanThen;
-        if (_isLeftToNext) searchAhead(view, lines, shown, spanThen, 1);
-        _isLeftToNext = _isLeftToNext && _ahead.valid();
+    // Starts the search beside the drawing of this view, in which nothing is hidden, for the next one: where a camera
+    // turns faster than before, or clipping planes change, that costs less than to wait. Not twice in succession, and
+    // not after a jump: a picture that stands alone is searched for at once. `spanThen`: as for servedAhead(). Returns:
+    // whether it did.
+    [[nodiscard]] bool leaveToNextView(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                                       const std::optional<PictureSpan>& spanThen) {
+        if (!_isLeftToNext && spanThen) searchAhead(view, lines, shown, spanThen, 1);
+        _isLeftToNext = _ahead.valid();
         return _isLeftToNext;
     }
 

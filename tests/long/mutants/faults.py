@@ -571,7 +571,7 @@ FAULTS = [
     Fault("occlusion: what was found ahead stays young", "src/occlusion/TerrainOcclusion.cpp",
           "ahead->uses += _found->uses;", "ahead->uses = 0;", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: searches are left to the next view again and again", "src/occlusion/TerrainOcclusion.cpp",
-          "_isLeftToNext = !_isLeftToNext && spanThen;", "_isLeftToNext = spanThen.has_value();", NODE, "TerrainOcclusion.*"),
+          "if (!_isLeftToNext && spanThen) searchAhead(", "if (spanThen) searchAhead(", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: pixels are square", "src/occlusion/LevelPicture.cpp",
           "std::max(width / viewport->width(), height / viewport->height())",
           "std::max(width / viewport->width(), 0.0 * height)", NODE, "TerrainOcclusion.*"),

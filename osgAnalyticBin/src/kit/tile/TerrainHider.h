@@ -63,13 +63,13 @@ public:
         glm::dvec3 eye;
         double nearReach;                 ///< see Viewpoint
         const NearPlaneBound* nearBound;  ///< where OSG computes the near plane; null: it does not
-        bool mayWait;                     ///< rather than for a search, for the next view
+        bool mayWait;                     ///< hide nothing, and leave a search to the next view
     };
     /// Tiles by their positions among those that are shown.
     struct Hidden {
         std::vector<std::size_t> tiles;
         std::size_t inView = 0;     ///< number of tiles in view, hidden ones included
-        bool isAwaited = false;     ///< no result yet: tiles have no plates yet, or the view waits for the next one
+        bool isAwaited = false;     ///< no result yet: tiles have no plates yet, or the search is left to the next view
         bool isForOneView = false;  ///< found anew, by an eye that is moving too fast for what was found before
         std::vector<std::size_t> withoutPlates;
         std::shared_ptr<const CoveredPicture> covered;  ///< null: there was no search
