@@ -219,9 +219,11 @@ void setDrawableCallback(const Part& part, osg::Drawable& drawable) {
             return drawable.setDrawCallback(new OwnDrawing(!isOdd));
         case PartKind::DrawableUpdate:
             return drawable.setUpdateCallback(new osg::DrawableUpdateCallback);
-        default:
+        case PartKind::DrawableBound:
             drawable.setComputeBoundingBoxCallback(new OwnBox);
-            drawable.dirtyBound();
+            return drawable.dirtyBound();
+        default:
+            return;
     }
 }
 

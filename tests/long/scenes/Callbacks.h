@@ -13,7 +13,7 @@ namespace osgAnalyticBin::test {
 /// Moves a MatrixTransform by an equal step in every frame, in its own frame.
 [[nodiscard]] osg::ref_ptr<osg::NodeCallback> makeMover(const osg::Matrixd& start, const osg::Vec3d& step, int frame);
 
-/// Hangs on a node the callback that a part is.
+/// Hangs on a node the callback that a part is, if it is one.
 void addCallback(const Part& part, osg::Node& node);
 
 /// Looks at every visitor that it meets as applications do: one of the cull traversal is a CullVisitor, and the handler

@@ -272,20 +272,6 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
     switch (part.kind) {
         case PartKind::CullingOff:
             return node->setCullingActive(false);
-        case PartKind::UserCull:
-        case PartKind::UserUpdate:
-        case PartKind::LeavesOut:
-        case PartKind::PushesState:
-        case PartKind::Masks:
-        case PartKind::Meddles:
-        case PartKind::OneShot:
-        case PartKind::BoundCallback:
-        case PartKind::NoBoundCallback:
-        case PartKind::DrawableCull:
-        case PartKind::DrawableDraw:
-        case PartKind::DrawableUpdate:
-        case PartKind::DrawableBound:
-            return addCallback(part, *node);
         case PartKind::DrawableBin:
             return storeBinOnDrawable(part, description, *node);
         case PartKind::Outline:
@@ -328,7 +314,7 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
                 above->setMatrix(above->getMatrix() * osg::Matrixd::translate(part.amount, 0.0, 0.0));
             return;
         default:
-            return;
+            return addCallback(part, *node);
     }
 }
 
