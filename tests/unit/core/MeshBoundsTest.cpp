@@ -7,7 +7,7 @@
 // lines along the normals of random places, against all triangles.
 
 #include "CoreTest.h"
-#include "MeshSamples.h"
+#include "OcclusionScene.h"
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -152,17 +152,9 @@ int facesAt(const EcefMesh& mesh, const Geodetic& at) {
     const glm::dvec3 foot = kEarth.toEcef({at.latitude, at.longitude, 0.0}), up = kEarth.up(at.latitude, at.longitude);
     int count = 0;
     for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
-        const Triangle triangle = triangleAt(mesh, first);
-        const std::array<glm::dvec3, 3> t{triangle.a, triangle.b, triangle.c};
-        const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-        const double slope = glm::dot(normal, up);
-        if (slope == 0.0) continue;
-        const double height = glm::dot(normal, t[0] - foot) / slope;
-        const glm::dvec3 hit = foot + height * up;
-        bool isInside = height > -3e6;
-        for (std::size_t k = 0; k < 3; ++k)
-            isInside = isInside && glm::dot(glm::cross(t[(k + 1) % 3] - t[k], hit - t[k]), normal) >= 0.0;
-        if (isInside) count += slope > 0.0 ? 1 : -1;
+        const Triangle t = triangleAt(mesh, first);
+        if (!meets(t, real(foot - 3e6 * up), real(foot + 3e6 * up))) continue;
+        count += glm::dot(glm::cross(t.b - t.a, t.c - t.a), up) > 0.0 ? 1 : -1;
     }
     return count;
 }
