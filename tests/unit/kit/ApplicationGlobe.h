@@ -102,10 +102,7 @@ struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
 
 /// Terrain is declared to be nowhere deeper than 50 km.
 [[nodiscard]] inline CullOptions declaredHorizon() {
-    CullOptions options;
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = -50000.0;
-    return options;
+    return optionsOf("horizon=-50000");
 }
 
 /// The place of a tile of a globe of 32.

@@ -175,8 +175,7 @@ struct LookTotals {
 /// The horizon, with the ground 1000 m below the ellipsoid.
 inline constexpr double kOccluderDepth = 1000.0;
 [[nodiscard]] inline CullOptions horizonOptions(Method method = Method::Quadratic) {
-    CullOptions options;
-    options.method = method;
+    CullOptions options = by(method);
     options.horizonUse = HorizonUse::Given;
     options.horizon = -kOccluderDepth;
     return options;

@@ -21,6 +21,7 @@
 #include <functional>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace osgAnalyticBin::test {
@@ -169,6 +170,14 @@ inline CullResult cull(osg::Node& scene, const CullView& view) {
     CullOptions options;
     options.method = method;
     return options;
+}
+
+/// From option text that is right.
+[[nodiscard]] inline CullOptions optionsOf(const std::string& text) {
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    if (!options) throw std::invalid_argument(error);
+    return *options;
 }
 
 /// Does something, if anything, before its node is traversed.

@@ -182,34 +182,26 @@ public:
     unsigned int visits = 0;
 };
 
-// A level below a tile, with two models that came later.
-struct LevelWithModels : MeshGlobe {
-    LevelWithModels(osg::Group* first, osg::Group* second) : still(first), moving(second) {
-        setFinerWithin(*tiles[19], 1e9f);
-        level->addChild(makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0));
-        putBelow(*tiles[19], level);
-        installBins(*root);
-        update(*root);
-        for (osg::Group* const model : {still.get(), moving.get()}) {
-            model->addChild(makeMeshTile(extentsDeg(20, 20.1, -25, -24.9), 100.0));
-            level->addChild(model);
-        }
-        for (int i = 0; i < 2; ++i) {
-            (void)root->getBound();
-            update(*root);
-        }
-        (void)root->getBound();
-    }
-    osg::ref_ptr<osg::Group> level = new osg::Group;
-    const osg::ref_ptr<osg::Group> still, moving;
-};
-
+// Both come later to a level below a tile.
 TEST(Models, ThatStandStillAreNotReadAgainWhereOneMoves) {
+    MeshGlobe globe;
+    setFinerWithin(*globe.tiles[19], 1e9f);
+    const auto level = makeGroup({makeMeshTile(extentsDeg(0, 45, -45, 0), 0.0)});
+    putBelow(*globe.tiles[19], level);
+    installBins(*globe.root);
+    update(*globe.root);
     const osg::ref_ptr<Visited> still = new Visited, moving = new Visited;
-    LevelWithModels globe(still, moving);
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extentsDeg(20, 20.1, -25, -24.9), 100.0);
+    still->addChild(makeMeshTile(extentsDeg(20, 20.1, -25, -24.9), 100.0));
+    moving->addChild(mesh);
+    for (const auto& model : {still, moving}) level->addChild(model);
+    for (int i = 0; i < 2; ++i) {
+        (void)globe.root->getBound();
+        update(*globe.root);
+    }
+    (void)globe.root->getBound();
     still->visits = moving->visits = 0;
-    auto& mesh = *globe.moving->getChild(0)->asTransform()->asMatrixTransform();
-    mesh.setMatrix(mesh.getMatrix() * osg::Matrixd::translate(0.0, 0.0, 1.0));
+    mesh->setMatrix(mesh->getMatrix() * osg::Matrixd::translate(0.0, 0.0, 1.0));
     (void)globe.root->getBound();
     EXPECT_EQ(still->visits, 0u);
     EXPECT_GT(moving->visits, 0u);

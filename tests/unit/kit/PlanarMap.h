@@ -142,12 +142,4 @@ private:
     }
 };
 
-/// From option text that is right.
-[[nodiscard]] inline CullOptions optionsOf(const std::string& text) {
-    std::string error;
-    const auto options = cullOptionsFromText(text, error);
-    if (!options) throw std::invalid_argument(error);
-    return *options;
-}
-
 }  // namespace osgAnalyticBin::test

@@ -122,9 +122,7 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
 
 TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
     RidgeGlobe globe;
-    CullOptions options;
-    options.occlusion = OcclusionUse::Auto;
-    installBins(*globe.root, options);
+    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
     // plates are made in the updates after a view that could use them
     int awaited = 0;
     for (; awaited < 20 && globe.drawsFarTile(); ++awaited) update(*globe.root);
@@ -144,9 +142,7 @@ TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
 // Nor are tiles prepared for it, which takes as long as reading them.
 TEST(TerrainOcclusion, IsNotLookedForFromHighAboveIfLeftToItself) {
     RidgeGlobe globe;
-    CullOptions options;
-    options.occlusion = OcclusionUse::Auto;
-    installBins(*globe.root, options);
+    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
     const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 5e6), ecefDeg(0.1, 50.0, 0.0), {1, 0, 0}, 30.0);
     (void)globe.drawsFarTile(high);
     EXPECT_STREQ(BinStatistics::of(*globe.visitor).notCovered(), "an eye that is not high above the terrain");
