@@ -4,7 +4,7 @@
 //
 // A camera that is culled by another view than its own. Oracle: a cull traversal of that other view.
 
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/Declarations.h>
 

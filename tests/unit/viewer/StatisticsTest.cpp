@@ -4,7 +4,7 @@
 //
 // Counts of tiles in a viewer that draws. Oracle: a survey of the same frame.
 
-#include "ViewerFixture.h"
+#include "DrawnViewer.h"
 
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>

@@ -6,7 +6,7 @@
 // watched; tiles whose verdict can be told by hand.
 
 #include "DatabaseFixture.h"
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>

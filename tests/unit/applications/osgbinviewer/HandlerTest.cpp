@@ -5,10 +5,11 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
+#include "DrawnViewer.h"
 #include "Handlers.h"
 #include "Traffic.h"
 #include "ViewTools.h"
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBins.h>

@@ -4,8 +4,8 @@
 //
 // Slabs as they are drawn. Oracle: the exact bin, and pictures.
 
+#include "DrawnViewer.h"
 #include "ViewTools.h"
-#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 
