@@ -9,6 +9,7 @@
 
 #include <cpl_string.h>
 #include <gdal_alg.h>
+#include <gdal_utils.h>
 
 #include <algorithm>
 #include <array>
@@ -133,6 +134,14 @@ private:
         return true;
     }
 };
+
+/// A virtual raster of files that lie side by side. Returns: its path.
+std::string writeMosaic(const std::string& path, const std::vector<std::string>& files) {
+    std::vector<const char*> names;
+    for (const std::string& file : files) names.push_back(file.c_str());
+    GDALClose(GDALBuildVRT(path.c_str(), static_cast<int>(names.size()), nullptr, names.data(), nullptr, nullptr));
+    return path;
+}
 
 /// Hills some kilometres apart, at places in metres.
 double hillsOfMetres(double y, double x) {

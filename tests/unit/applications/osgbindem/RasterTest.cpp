@@ -5,10 +5,7 @@
 
 #include "RasterFile.h"
 
-#include <osg/Texture2D>
-
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -65,26 +62,6 @@ std::string TestImage::write(const std::string& path) const {
     if (hole == Hole::Alpha) OpenRaster::write(file.band(4), bands[3]);
     if (hole == Hole::Mask) OpenRaster::write(*file.band().GetMaskBand(), bands[3]);
     return path;
-}
-
-const osg::Image* textureOf(const LoadedTile& tile) {
-    const osg::StateSet* state = tile.geometry->getStateSet();
-    const osg::StateAttribute* texture = state ? state->getTextureAttribute(0, osg::StateAttribute::TEXTURE) : nullptr;
-    return texture ? dynamic_cast<const osg::Texture2D&>(*texture).getImage() : nullptr;
-}
-
-Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg) {
-    return shownAt(database.leafAt(latitudeDeg, longitudeDeg), latitudeDeg, longitudeDeg);
-}
-
-Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg) {
-    const osg::Image* image = textureOf(tile);
-    if (!image) throw std::runtime_error("no texture there");
-    const Rect rect = tile.rect();
-    const auto texel = [&](double share) { return static_cast<unsigned int>(std::lround(share * (image->s() - 1))); };
-    const unsigned char* shown = image->data(texel((longitudeDeg - rect.west) / (rect.east - rect.west)),
-                                             texel((latitudeDeg - rect.south) / (rect.north - rect.south)));
-    return {shown[0], shown[1], shown[2]};
 }
 
 using osgAnalyticBin::test::Modules;

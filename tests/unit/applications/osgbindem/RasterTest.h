@@ -42,14 +42,6 @@ struct TestImage {
     Hole hole = Hole::Alpha;
 };
 
-/// The image of a tile's texture; nullptr without one.
-[[nodiscard]] const osg::Image* textureOf(const LoadedTile& tile);
-
-/// What a tile shows at its texel nearest to the position.
-[[nodiscard]] Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg);
-/// What the finest tile there shows.
-[[nodiscard]] Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg);
-
 using osgAnalyticBin::test::Files;
 using osgAnalyticBin::test::filesBelow;
 using osgAnalyticBin::test::Outcome;

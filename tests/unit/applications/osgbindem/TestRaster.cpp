@@ -3,7 +3,6 @@
 
 #include "TestRaster.h"
 
-#include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
@@ -134,11 +133,4 @@ double hills(double latitudeDeg, double longitudeDeg) {
 
 TestRaster::Height flat(double metres) {
     return [metres](double, double) { return metres; };
-}
-
-std::string writeMosaic(const std::string& path, const std::vector<std::string>& files) {
-    std::vector<const char*> names;
-    for (const std::string& file : files) names.push_back(file.c_str());
-    GDALClose(GDALBuildVRT(path.c_str(), static_cast<int>(names.size()), nullptr, names.data(), nullptr, nullptr));
-    return path;
 }

@@ -101,6 +101,3 @@ private:
 
 /// One height everywhere.
 [[nodiscard]] TestRaster::Height flat(double metres);
-
-/// A virtual raster of files that lie side by side. Returns: its path.
-std::string writeMosaic(const std::string& path, const std::vector<std::string>& files);
