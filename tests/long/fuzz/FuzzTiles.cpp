@@ -217,20 +217,12 @@ private:
 class FilesInMemory : public osgDB::ReadFileCallback {
 public:
     osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options*) override {
-        const auto number = static_cast<std::size_t>(name.front() - '0');
+        const auto number = static_cast<std::size_t>(name[0] - '0');
         if (number >= files.size() || !files[number]) return osgDB::ReaderWriter::ReadResult::FILE_NOT_FOUND;
-        const osg::ref_ptr<osg::Node> copy = writtenAndRead(*files[number], false);
-        if (!copy) return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
-        return copy.get();
+        return writtenAndRead(*files[number], false).get();
     }
     std::array<osg::ref_ptr<osg::Node>, kFiles> files;
 };
-
-FilesInMemory& filesInMemory() {
-    static const osg::ref_ptr<FilesInMemory> files = new FilesInMemory;
-    osgDB::Registry::instance()->setReadFileCallback(files);
-    return *files;
-}
 
 /// Loads what PagedLODs name the way the pager does, a level in each traversal, as far as there is patience.
 class Pager : public osg::NodeVisitor {
@@ -278,7 +270,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool isDrawn = spare % 4 != 0;
     Maker maker(bytes, isDrawn);
     const osg::ref_ptr<osg::Node> made = maker.makeRoot(place);
-    for (osg::ref_ptr<osg::Node>& file : filesInMemory().files) file = bytes.empty() ? nullptr : maker.makeFile(place);
+    static const osg::ref_ptr<FilesInMemory> memory = new FilesInMemory;
+    osgDB::Registry::instance()->setReadFileCallback(memory);
+    for (osg::ref_ptr<osg::Node>& file : memory->files) file = bytes.empty() ? nullptr : maker.makeFile(place);
     const osg::ref_ptr<osg::Node> scene = writtenAndRead(*made, false);
     if (!scene) return 0;
     (void)installBins(*scene, options);
