@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // A camera that is culled by another view than its own. Oracle: a cull traversal of that other view.
 

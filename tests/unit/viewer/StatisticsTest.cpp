@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // Counts of tiles in a viewer that draws. Oracle: a survey of the same frame.
 
