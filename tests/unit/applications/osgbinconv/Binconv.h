@@ -33,6 +33,11 @@ inline Outcome runIndex(const std::string& rootFile) {
     return runBinconv({"--quiet", "--index", rootFile});
 }
 
+inline void expectNoIndex(const std::string& rootFile) {
+    EXPECT_FALSE(std::filesystem::exists(rootFile + ".bins"));
+    EXPECT_FALSE(std::filesystem::exists(rootFile + ".bins.part"));
+}
+
 /// The index beside a root file; an empty one where there is none.
 inline osg::ref_ptr<BinIndex> indexOf(const std::string& rootFile) {
     std::string error;
