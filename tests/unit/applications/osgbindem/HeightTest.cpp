@@ -193,12 +193,6 @@ TEST_F(Heights, ATurnedRaster) {
     expectHeights({turned});
 }
 
-TEST_F(Heights, RastersOfDegrees) {
-    TestRaster other(-100.0, 40.0, 0.1, 0.1, 80, 60, hills);
-    expectHeights(
-        {saved(TestRaster(10.0, 50.0, 0.03, 80, hills)), saved(other.in("EPSG:4269")), savedGlobe(1.0, hills)});
-}
-
 /// Hills of so many metres from one to the next, divided by 2 pi.
 TestRaster::Height wavesOf(double metres) {
     return [metres](double y, double x) { return 1000.0 + 800.0 * std::sin(x / metres) * std::cos(y / metres); };
