@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // Slabs as they are drawn. Oracle: the exact bin, and pictures.
 
