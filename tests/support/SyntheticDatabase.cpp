@@ -33,22 +33,14 @@ struct Address {
     int level = 0;
     int row = 0;
     int column = 0;
+
+    [[nodiscard]] double widthDeg() const { return 360.0 / kColumns / (1 << level); }
+    [[nodiscard]] double southDeg() const { return -90.0 + row * widthDeg(); }
+    [[nodiscard]] double westDeg() const { return -180.0 + column * widthDeg(); }
 };
 
-double widthDegOf(const Address& tile) {
-    return 360.0 / kColumns / (1 << tile.level);
-}
-double southDegOf(const Address& tile) {
-    return -90.0 + tile.row * widthDegOf(tile);
-}
-double westDegOf(const Address& tile) {
-    return -180.0 + tile.column * widthDegOf(tile);
-}
-
 AnalyticBin binOf(const Address& tile) {
-    const double south = southDegOf(tile);
-    const double west = westDegOf(tile);
-    const double width = widthDegOf(tile);
+    const double south = tile.southDeg(), west = tile.westDeg(), width = tile.widthDeg();
     // the chord between two posts of a parallel runs poleward of it by up to 0.25 t2 for posts t radians apart
     const double step = width / (kPosts - 1);
     const double bulge = 0.25 * step * step * kRadiansPerDegree;
@@ -57,14 +49,10 @@ AnalyticBin binOf(const Address& tile) {
         1.0);
 }
 
-double altitudeAt(double latitude, double longitude) {
-    return kHill * std::sin(20.0 * latitude) * std::cos(24.0 * longitude) * std::cos(latitude);
-}
-
 osg::Vec3d ecefAt(const osg::EllipsoidModel& ellipsoid, double latitude, double longitude) {
+    const double altitude = kHill * std::sin(20.0 * latitude) * std::cos(24.0 * longitude) * std::cos(latitude);
     osg::Vec3d ecef;
-    ellipsoid.convertLatLongHeightToXYZ(latitude, longitude, altitudeAt(latitude, longitude), ecef.x(), ecef.y(),
-                                        ecef.z());
+    ellipsoid.convertLatLongHeightToXYZ(latitude, longitude, altitude, ecef.x(), ecef.y(), ecef.z());
     return ecef;
 }
 
@@ -80,11 +68,11 @@ osg::ref_ptr<osg::Node> geometryOf(const Address& tile, const osg::EllipsoidMode
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
     const osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array(osg::Array::BIND_PER_VERTEX);
-    const double step = widthDegOf(tile) / (kPosts - 1);
+    const double step = tile.widthDeg() / (kPosts - 1);
     for (unsigned int j = 0; j < kPosts; ++j) {
         for (unsigned int i = 0; i < kPosts; ++i) {
-            const osg::Vec3d ecef = ecefAt(ellipsoid, (southDegOf(tile) + j * step) * kRadiansPerDegree,
-                                           (westDegOf(tile) + i * step) * kRadiansPerDegree);
+            const osg::Vec3d ecef = ecefAt(ellipsoid, (tile.southDeg() + j * step) * kRadiansPerDegree,
+                                           (tile.westDeg() + i * step) * kRadiansPerDegree);
             osg::Vec3d normal = ecef;
             normal.normalize();
             vertices->push_back(osg::Vec3(ecef - center));

@@ -8,39 +8,23 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
-#include <osg/Group>
 #include <osg/Notify>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 
+#include <kit/CullFixture.h>
 #include <sstream>
 
 using namespace osgAnalyticBin;
 
 namespace {
 
-class Reached : public osg::NodeCallback {
-public:
-    void operator()(osg::Node*, osg::NodeVisitor*) override { isReached = true; }
-    bool isReached = false;
-};
-
 bool isReached(AnalyticBinCullCallback& callback) {
-    const osg::ref_ptr<Reached> reached = new Reached;
-    callback.setNestedCallback(reached);
+    std::set<std::string> reached;
+    callback.setNestedCallback(new test::VisitRecorder("tile", reached));
     const osg::ref_ptr<osg::Group> tile = new osg::Group;
     tile->setCullCallback(&callback);
     tile->setCullingActive(false);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    visitor->setStateGraph(new osgUtil::StateGraph);
-    visitor->setRenderStage(new osgUtil::RenderStage);
-    visitor->pushViewport(new osg::Viewport(0, 0, 64, 64));
-    visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e9)));
-    const osg::Matrixd view = osg::Matrixd::lookAt(osg::Vec3d(2e7, 0, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1));
-    visitor->pushModelViewMatrix(new osg::RefMatrix(view), osg::Transform::ABSOLUTE_RF);
-    tile->accept(*visitor);
-    return reached->isReached;
+    (void)test::cull(*tile, test::CullView::lookAt({2e7, 0, 0}, {}, {0, 0, 1}, 30.0));
+    return !reached.empty();
 }
 
 }  // namespace

@@ -82,24 +82,16 @@ public:
         return found.size();
     }
 
-    /// Of all that were ever noted, those that are alive.
-    [[nodiscard]] std::size_t alive() {
+    /// Of all that were ever noted, the classes of those that are alive.
+    [[nodiscard]] std::multiset<std::string> alive() {
+        std::multiset<std::string> classes;
         for (auto entry = _known.begin(); entry != _known.end();) {
-            entry = entry->second.valid() ? std::next(entry) : _known.erase(entry);
-        }
-        return _known.size();
-    }
-
-    /// The same by class, for a message.
-    [[nodiscard]] std::string kinds() const {
-        std::map<std::string, int> counts;
-        for (const auto& [address, observed] : _known) {
             osg::ref_ptr<osg::Object> object;
-            if (observed.lock(object)) ++counts[object->className()];
+            const bool isAlive = entry->second.lock(object);
+            if (isAlive) classes.insert(object->className());
+            entry = isAlive ? std::next(entry) : _known.erase(entry);
         }
-        std::string text;
-        for (const auto& [name, count] : counts) text += name + " " + std::to_string(count) + "  ";
-        return text;
+        return classes;
     }
 
 private:
@@ -190,12 +182,6 @@ public:
         for (std::size_t i = kStaying; i < kMostDatabases; ++i) addDatabase(_databases.back());
         _rig->setMostPagedLods(100000);
         const osg::CullSettings::CullingMode mode = _rig->cameras().front()->getCullingMode();
-        const auto setCameras = [&](osg::CullSettings::CullingMode culling, float lodScale) {
-            for (osg::Camera* camera : _rig->cameras()) {
-                camera->setCullingMode(culling);
-                camera->setLODScale(lodScale);
-            }
-        };
         setCameras(osg::CullSettings::NO_CULLING, 0.0F);
         for (const Threading model : kThreadingModels) {
             _rig->viewer().setThreadingModel(model);
@@ -230,13 +216,15 @@ public:
         report("waits for the pager's thread to delete");
         constexpr int kMostRests = 100;
         const std::size_t inScene = _objects.note(*_scene);
-        for (int i = 0; i < kMostRests && _objects.alive() > inScene; ++i) {
+        std::multiset<std::string> alive = _objects.alive();
+        for (int i = 0; i < kMostRests && alive.size() > inScene; ++i) {
             (void)rest();
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            alive = _objects.alive();
         }
-        if (_objects.alive() <= inScene) return;
-        _findings.strayObjects += _objects.alive() - inScene;
-        std::cerr << "alive, in the scene or not: " << _objects.kinds() << "(" << inScene << " are)" << std::endl;
+        if (alive.size() <= inScene) return;
+        _findings.strayObjects += alive.size() - inScene;
+        for (const std::string& name : alive) std::cerr << "alive, in the scene or not: " << name << std::endl;
     }
 
 private:
@@ -303,6 +291,18 @@ private:
         _scene->addChild(database);
     }
 
+    void setCameras(osg::CullSettings::CullingMode culling, float lodScale = 1.0F) {
+        for (osg::Camera* camera : _rig->cameras()) {
+            camera->setCullingMode(culling);
+            camera->setLODScale(lodScale);
+        }
+    }
+
+    void drawNext() {
+        _rig->update(_time += kFrameTime);
+        _rig->render();
+    }
+
     // Frames from where the camera is until nothing more is read or merged.
     bool rest() {
         constexpr int kMostFrames = 2000;
@@ -310,9 +310,7 @@ private:
         osgDB::DatabasePager& pager = *_rig->view().getDatabasePager();
         int quiet = 0;
         for (int i = 0; i < kMostFrames && quiet < kQuiet; ++i) {
-            _time += kFrameTime;
-            _rig->update(_time);
-            _rig->render();
+            drawNext();
             const bool isBusy = pager.requiresUpdateSceneGraph() || pager.getRequestsInProgress();
             quiet = isBusy ? 0 : quiet + 1;
             if (isBusy) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -324,21 +322,14 @@ private:
         report("loads what is in view");
         _rig->setMostPagedLods(1000);
         if (!rest()) ++_findings.unloaded;
-        _time += kFrameTime;
         report("draws for a picture");
-        const auto culled = _pictures->take([&] {
-            _rig->update(_time);
-            _rig->render();
-        });
-        const auto setMode = [&](osg::CullSettings::CullingMode mode) {
-            for (osg::Camera* camera : _rig->cameras()) camera->setCullingMode(mode);
-        };
+        const auto culled = _pictures->take([&] { drawNext(); });
         const osg::CullSettings::CullingMode mode = _rig->cameras().front()->getCullingMode();
-        setMode(osg::CullSettings::NO_CULLING);
+        setCameras(osg::CullSettings::NO_CULLING);
         report("draws for a picture without culling");
         // nothing is merged in between
         const auto truth = _pictures->take([&] { _rig->render(); });
-        setMode(mode);
+        setCameras(mode);
         for (std::size_t i = 0; i < truth.size(); ++i) {
             ++_findings.pictures;
             std::size_t differing = 0;

@@ -171,15 +171,6 @@ TEST_F(HttpPaging, WhereTilesFailTheirParentsStayAndTheServerIsSpared) {
     EXPECT_EQ(flight.drawn(), whole);
 }
 
-TEST_F(HttpPaging, ASlowServerDelaysTilesAndNothingElse) {
-    ASSERT_TRUE(nginx.start("limit_rate 100k;"));
-    PagedFlight flight(*read(nginx.url("earth.osgb"), ".(method=quadratic)"));
-    flight.frame(view());
-    EXPECT_FALSE(flight.drawn().empty());
-    ASSERT_TRUE(flight.load(view()));
-    EXPECT_EQ(flight.drawn(), whole);
-}
-
 TEST_F(HttpPaging, AServerThatStopsInTheMiddleOfAFileAndComesBackLeavesNoTrace) {
     ASSERT_TRUE(nginx.start());
     const osg::ref_ptr<osg::Node> scene = read(nginx.url("earth.osgb"));

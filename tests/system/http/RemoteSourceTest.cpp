@@ -38,12 +38,6 @@ void writeCloudOptimized(const std::string& path) {
     GDALClose(GDALDataset::ToHandle(file));
 }
 
-std::size_t bytesSent(const Nginx& server) {
-    std::size_t sum = 0;
-    for (const Nginx::Request& request : server.requests()) sum += request.bytes;
-    return sum;
-}
-
 class RemoteSource : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -63,39 +57,42 @@ protected:
         result.erase("earth_tiles/state/sources.txt");  // which names the raster
         return result;
     }
-    std::string remote(const Nginx& server) const { return "/vsicurl/" + server.url("dem.tif"); }
+    std::size_t bytesSent() const {
+        std::size_t sum = 0;
+        for (const Nginx::Request& request : server.requests()) sum += request.bytes;
+        return sum;
+    }
 
     test::TemporaryFolder folder;
-    std::string raster = folder / "served/dem.tif";
+    const std::string raster = folder / "served/dem.tif";
+    Nginx server{folder / "served"};
+    const std::string remote = "/vsicurl/" + server.url("dem.tif");
 };
 
 TEST_F(RemoteSource, GivesTheDatabaseOfTheFileOnDisk) {
-    Nginx server(folder / "served");
     ASSERT_TRUE(server.start());
     ASSERT_EQ(build(raster, "disk", "--levels 1 --cells 12").code, 0);
-    ASSERT_EQ(build(remote(server), "web", "--levels 1 --cells 12").code, 0);
+    ASSERT_EQ(build(remote, "web", "--levels 1 --cells 12").code, 0);
     EXPECT_TRUE(files("web") == files("disk"));
     EXPECT_EQ(files("web").size(), 129U + 128U);  // and the records
 }
 
 TEST_F(RemoteSource, IsReadThroughItsOverviews) {
-    Nginx server(folder / "served");
     ASSERT_TRUE(server.start());
-    ASSERT_EQ(build(remote(server), "coarse", "--levels 0 --cells 24").code, 0);
-    const std::size_t coarse = bytesSent(server);
-    ASSERT_EQ(build(remote(server), "full", "--levels 0 --cells 24 --full-resolution").code, 0);
-    const std::size_t full = bytesSent(server) - coarse;
+    ASSERT_EQ(build(remote, "coarse", "--levels 0 --cells 24").code, 0);
+    const std::size_t coarse = bytesSent();
+    ASSERT_EQ(build(remote, "full", "--levels 0 --cells 24 --full-resolution").code, 0);
+    const std::size_t full = bytesSent() - coarse;
     EXPECT_GT(coarse, 16384U);
     EXPECT_LT(10 * coarse, fs::file_size(raster));
     EXPECT_GT(full, fs::file_size(raster) / 2);
 }
 
 TEST_F(RemoteSource, SurvivesAServerInTroubleForAWhile) {
-    Nginx server(folder / "served");
     // Every connection's first request is turned away.
     ASSERT_TRUE(server.start("if ($connection_requests = 1) { return 503; }"));
     ASSERT_EQ(build(raster, "disk", "--levels 0 --cells 12").code, 0);
-    const test::Outcome outcome = build(remote(server), "web", "--levels 0 --cells 12");
+    const test::Outcome outcome = build(remote, "web", "--levels 0 --cells 12");
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_TRUE(files("web") == files("disk"));
     const std::vector<Nginx::Request> requests = server.requests();
@@ -103,7 +100,6 @@ TEST_F(RemoteSource, SurvivesAServerInTroubleForAWhile) {
 }
 
 TEST_F(RemoteSource, IsMissedInOneLine) {
-    Nginx server(folder / "served");
     ASSERT_TRUE(server.start());
     const test::Outcome outcome = build("/vsicurl/" + server.url("absent.tif"), "web", "--levels 0");
     EXPECT_NE(outcome.code, 0);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // A camera that is culled by another view than its own. Oracle: a cull traversal of that other view.
 
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/Declarations.h>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // Counts of tiles in a viewer that draws. Oracle: a survey of the same frame.
 
-#include "ViewerFixture.h"
+#include "DrawnViewer.h"
 
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>

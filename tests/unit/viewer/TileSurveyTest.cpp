@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // What a camera's cull traversal came to. Oracles: the counters and the render graph of a traversal that was not
 // watched; tiles whose verdict can be told by hand.
 
 #include "DatabaseFixture.h"
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
@@ -39,12 +38,17 @@ CullOptions with(Method method) {
     return options;
 }
 
-TEST(TileSurvey, TellsVerdictsThatAreKnown) {
+TEST(TileSurvey, KnowsWhereBinsStandAndTellsVerdictsThatAreKnown) {
     ViewerScene scene(with(Method::Quadratic));
     // two radii above the middle of the tile 0 .. 45 north, 0 .. 45 east, which the frustum holds whole
     scene.lookFrom(22.5, 22.5, 12e6, 0.0, 60.0);
     const TileSurvey survey(scene.camera(), scene.frameStamp());
     ASSERT_EQ(survey.tiles().size(), 32u);
+    const osg::Matrixd identity;
+    for (const SurveyedTile& tile : survey.tiles()) {
+        ASSERT_TRUE(tile.hasBin && tile.ellipsoid && tile.bin.valid());
+        for (int i = 0; i < 16; ++i) EXPECT_NEAR(tile.ecefToWorld.ptr()[i], identity.ptr()[i], 1e-6);
+    }
     ASSERT_TRUE(tileAt(survey, 20, 20) && tileAt(survey, -20, -160));
     EXPECT_EQ(tileAt(survey, 20, 20)->verdict, TileVerdict::Inside);
     EXPECT_TRUE(tileAt(survey, 20, 20)->isDrawn);
@@ -99,19 +103,6 @@ TEST(TileSurvey, OfAFrozenCameraIsThatOfWhereItFroze) {
     for (std::size_t i = 0; i < before.tiles().size(); ++i) {
         EXPECT_EQ(frozen.tiles()[i].verdict, before.tiles()[i].verdict);
         EXPECT_EQ(frozen.tiles()[i].isDrawn, before.tiles()[i].isDrawn);
-    }
-}
-
-TEST(TileSurvey, KnowsWhereABinStandsInTheWorld) {
-    ViewerScene scene(with(Method::Quadratic));
-    scene.lookFrom(15.0, 40.0, 800e3, 0.0, 45.0);
-    const osg::Matrixd identity;
-    const TileSurvey survey(scene.camera(), scene.frameStamp());
-    ASSERT_FALSE(survey.tiles().empty());
-    for (const SurveyedTile& tile : survey.tiles()) {
-        ASSERT_TRUE(tile.hasBin && tile.ellipsoid && tile.bin.valid());
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 4; ++j) EXPECT_NEAR(tile.ecefToWorld(i, j), identity(i, j), 1e-6);
     }
 }
 

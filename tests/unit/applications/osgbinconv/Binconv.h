@@ -3,17 +3,20 @@
 
 #pragma once
 
+#include "TestRaster.h"
+
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/core/Ellipsoid.h>
 
-#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
-#include <osg/Node>
+#include <osgDB/WriteFile>
 
-#include <cstddef>
+#include <DatabaseFixture.h>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <support/FailureText.h>
 #include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <vector>
 
@@ -28,6 +31,11 @@ inline Outcome runBinconv(std::vector<std::string> words) {
 /// --index on a root file.
 inline Outcome runIndex(const std::string& rootFile) {
     return runBinconv({"--quiet", "--index", rootFile});
+}
+
+inline void expectNoIndex(const std::string& rootFile) {
+    EXPECT_FALSE(std::filesystem::exists(rootFile + ".bins"));
+    EXPECT_FALSE(std::filesystem::exists(rootFile + ".bins.part"));
 }
 
 /// The index beside a root file; an empty one where there is none.
@@ -47,39 +55,35 @@ inline void expectSuccess(const Outcome& outcome) {
     EXPECT_EQ(outcome.text, "");
 }
 
-/// Whether there is such a database: "synthetic" and "bindem" always, VirtualPlanetBuilder's "terrain" and "polygonal"
-/// where samples of them are.
-[[nodiscard]] bool isAtHand(const std::string& kind);
-
-/// Writes a database of that kind. Returns: its root file; empty when that fails.
-[[nodiscard]] std::string makeDatabase(const std::string& kind, const TemporaryFolder& folder);
+/// Writes a database: "synthetic", "bindem" or, where samples of them are, VirtualPlanetBuilder's "terrain" and
+/// "polygonal". Returns: its root file; empty when that fails.
+[[nodiscard]] inline std::string makeDatabase(const std::string& kind, const TemporaryFolder& folder) {
+    const std::string file = folder / "earth.osgb";
+    if (kind == "synthetic") return writeSyntheticDatabase(folder.path());
+    if (kind == "bindem") {
+        const std::string globe = TestRaster::globe(2.5, hills).write(folder / "heights.tif");
+        const std::vector<std::string> words{
+            OSGBINDEM_PROGRAM, "--quiet", "--levels", "1", "--cells", "8", globe, "-o", file};
+        return runStock(quoted(words), Modules::Present).code == 0 ? file : std::string();
+    }
+    std::filesystem::copy(SAMPLE_DATA "/vpb/" + kind, folder.path(), std::filesystem::copy_options::recursive);
+    return file;
+}
 
 /// A flat tile of one degree, its south-west corner on the equator, that pages the named file; no name: a leaf.
-[[nodiscard]] osg::ref_ptr<osg::Node> makeSmallTile(const std::string& pagedFile, double westDeg = 0.0);
+[[nodiscard]] inline osg::ref_ptr<osg::Node> makeSmallTile(const std::string& pagedFile, double westDeg = 0.0) {
+    const osg::ref_ptr<osg::Node> mesh = makeMeshTile(extentsDeg(0, 1, westDeg, westDeg + 1), 100.0, 5);
+    if (pagedFile.empty()) return mesh;
+    return makePaged(mesh, pagedFile);
+}
 
 /// Writes a file with a tile; a root file has a CoordinateSystemNode above it. Makes the folders of the path.
-void writeFile(const std::string& path, osg::Node& tile);
-void writeRoot(const std::string& path, osg::Node& tile);
-
-/// A tile of a database, as OpenSceneGraph reads it.
-struct DrawnTile {
-    std::string file;
-    std::size_t ordinal = 0;
-    /// Indices of all tiles above it, the nearest first.
-    std::vector<std::size_t> ancestors;
-    /// Metres that its skirts hang down.
-    double skirt = 0.0;
-    double low = 0.0;
-    double high = 0.0;
-    std::uint64_t fingerprint = 0;
-    /// All vertices that it draws itself, those of skirts included.
-    std::vector<glm::dvec3> samples;
-};
-
-/// All tiles of a local database, each file read by its name.
-[[nodiscard]] std::vector<DrawnTile> readAllTiles(const std::string& rootFile);
-
-/// The ellipsoid of all databases here.
-[[nodiscard]] core::Ellipsoid ellipsoidOfTests();
+inline void writeFile(const std::string& path, osg::Node& tile) {
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    if (!osgDB::writeNodeFile(tile, path)) throw std::runtime_error("cannot write " + path);
+}
+inline void writeRoot(const std::string& path, osg::Node& tile) {
+    writeFile(path, *makeGlobe({&tile}));
+}
 
 }  // namespace osgAnalyticBin::test

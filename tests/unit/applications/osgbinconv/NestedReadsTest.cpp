@@ -108,8 +108,7 @@ protected:
     }
     void expectRefused(const std::string& name) const {
         expectRefusal(runIndex(root), name);
-        EXPECT_FALSE(fs::exists(root + ".bins"));
-        EXPECT_FALSE(fs::exists(root + ".bins.part"));
+        expectNoIndex(root);
     }
 
     const TemporaryFolder folder;

@@ -62,13 +62,6 @@ TEST_F(Database, HoldsForAWholeGlobe) {
     checkNormalsAlongEdges(database.tiles);
 }
 
-TEST_F(Database, HoldsWhenTheRasterIsMuchFinerThanTheTiles) {
-    const TestRaster raster = TestRaster::globe(0.5, hills);
-    const LoadedDatabase database = databaseOf({saved(raster), "--cells", "6", "--levels", "0"});
-    EXPECT_EQ(database.deepestLevel(), 0);
-    checkDatabase(database, raster);
-}
-
 TEST_F(Database, SkirtsOfFlatTerrainAreAsDeepAsTheSagOfItsChords) {
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     databaseOf({savedGlobe(1.0, flat(0.0)), "--cells", "12"}).forEach([](const LoadedTile& tile) {

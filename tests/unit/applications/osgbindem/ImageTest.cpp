@@ -5,15 +5,41 @@
 // oracles are the images' own colours, and a database that has none of them.
 
 #include "RasterTest.h"
+#include "TestImage.h"
+
+#include <osg/Texture2D>
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 namespace {
 
 constexpr Colour kBlue{10, 40, 230};
 constexpr Colour kRed{230, 30, 20};
 constexpr Colour kGreen{20, 200, 50};
+
+/// The image of a tile's texture; nullptr without one.
+const osg::Image* textureOf(const LoadedTile& tile) {
+    const osg::StateSet* state = tile.geometry->getStateSet();
+    const osg::StateAttribute* texture = state ? state->getTextureAttribute(0, osg::StateAttribute::TEXTURE) : nullptr;
+    return texture ? dynamic_cast<const osg::Texture2D&>(*texture).getImage() : nullptr;
+}
+
+/// What a tile shows at its texel nearest to the position.
+Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg) {
+    const osg::Image* image = textureOf(tile);
+    if (!image) throw std::runtime_error("no texture there");
+    const Rect rect = tile.rect();
+    const auto texel = [&](double share) { return static_cast<unsigned int>(std::lround(share * (image->s() - 1))); };
+    const unsigned char* shown = image->data(texel((longitudeDeg - rect.west) / (rect.east - rect.west)),
+                                             texel((latitudeDeg - rect.south) / (rect.north - rect.south)));
+    return {shown[0], shown[1], shown[2]};
+}
+/// What the finest tile there shows.
+Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg) {
+    return shownAt(database.leafAt(latitudeDeg, longitudeDeg), latitudeDeg, longitudeDeg);
+}
 
 class Images : public RasterTest {
 protected:

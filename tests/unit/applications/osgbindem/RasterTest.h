@@ -1,54 +1,21 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// osgbindem as users run it, and its parts; images and rasters for it.
+// osgbindem as users run it, and its parts; rasters for it.
 
 #pragma once
 
 #include "DemMosaic.h"
 #include "LoadedDatabase.h"
+#include "RasterFile.h"
 #include "TestRaster.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <functional>
-#include <optional>
 #include <string>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
 #include <vector>
-
-/// Red, green, blue.
-using Colour = std::array<int, 3>;
-
-/// How a file says that it has no pixel somewhere.
-enum class Hole { Alpha, Mask, Nodata, Palette };
-
-/// An image, square degree by square degree: `pixels` by `pixels` from the north-west corner on.
-struct TestImage {
-    TestImage(double westDeg, double northDeg, double pixelDeg, int side, const Colour& colour);
-
-    /// Round the globe: twice as many columns as rows.
-    [[nodiscard]] static TestImage globe(double spacingDeg, const Colour& colour);
-
-    /// Writes a file. Returns: its path.
-    std::string write(const std::string& path) const;
-
-    double west, north, spacingDeg;
-    int pixels;
-    /// nullopt: a hole. With a palette there is one colour.
-    std::function<std::optional<Colour>(double latitudeDeg, double longitudeDeg)> colourAt;
-    Hole hole = Hole::Alpha;
-};
-
-/// The image of a tile's texture; nullptr without one.
-[[nodiscard]] const osg::Image* textureOf(const LoadedTile& tile);
-
-/// What a tile shows at its texel nearest to the position.
-[[nodiscard]] Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg);
-/// What the finest tile there shows.
-[[nodiscard]] Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg);
 
 using osgAnalyticBin::test::Files;
 using osgAnalyticBin::test::filesBelow;
@@ -56,22 +23,45 @@ using osgAnalyticBin::test::Outcome;
 using Words = std::vector<std::string>;
 
 /// One list after the other.
-[[nodiscard]] Words joined(Words first, const Words& second);
+[[nodiscard]] inline Words joined(Words first, const Words& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
 
 /// Runs osgbindem. `fullDisk`: with so many blocks of 512 bytes as the most that a file may have.
-[[nodiscard]] Outcome run(const Words& arguments, int fullDisk = 0);
+[[nodiscard]] inline Outcome run(const Words& arguments, int fullDisk = 0) {
+    using namespace osgAnalyticBin::test;
+    const std::string command = quoted(joined({OSGBINDEM_PROGRAM}, arguments));
+    return runStock(fullDisk > 0 ? onFullDisk(command, fullDisk) : command, Modules::Present);
+}
 
 /// Runs osgbindem, which has to succeed in silence.
-void build(const Words& arguments);
+inline void build(const Words& arguments) {
+    const Outcome outcome = run(joined({"--quiet"}, arguments));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    ASSERT_EQ(outcome.text, "");
+}
 
 /// Runs osgbindem, which has to fail with one line that says what is wrong.
-void expectFailure(const Words& arguments, const std::string& what, int code = 1, int fullDisk = 0);
+inline void expectFailure(const Words& arguments, const std::string& what, int code = 1, int fullDisk = 0) {
+    expectOneLine(run(joined({"--quiet"}, arguments), fullDisk), "osgbindem", what, code);
+}
 
 /// Builds a database by a command line, to which -o is added, and loads it.
-[[nodiscard]] LoadedDatabase databaseOf(const Words& arguments);
+[[nodiscard]] inline LoadedDatabase databaseOf(const Words& arguments) {
+    const osgAnalyticBin::test::TemporaryFolder folder;
+    build(joined(arguments, {"-o", folder / "earth.osgb"}));
+    return loadDatabase(folder / "earth.osgb");
+}
 
 /// The heights of rasters that a command line names, without a database.
-[[nodiscard]] osgbindem::DemMosaic mosaicOf(const Words& arguments);
+[[nodiscard]] inline osgbindem::DemMosaic mosaicOf(const Words& arguments) {
+    GDALAllRegister();
+    std::vector<const char*> words{"osgbindem", "-o", "earth.osgb"};
+    for (const std::string& word : arguments) words.push_back(word.c_str());
+    const auto settings = osgbindem::settingsFrom(static_cast<int>(words.size()), words.data());
+    return osgbindem::DemMosaic(osgbindem::withDeclaredRadii(settings.value()));
+}
 
 /// Rasters, and what is made of them, in a folder of their own.
 class RasterTest : public testing::Test {

@@ -5,6 +5,7 @@
 // byte for byte.
 
 #include "RasterTest.h"
+#include "TestImage.h"
 
 #include <filesystem>
 #include <map>

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
+#include "DrawnViewer.h"
 #include "Handlers.h"
 #include "Traffic.h"
 #include "ViewTools.h"
-#include "ViewerFixture.h"
+#include "ViewerScene.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBins.h>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // Slabs as they are drawn. Oracle: the exact bin, and pictures.
 
+#include "DrawnViewer.h"
 #include "ViewTools.h"
-#include "ViewerFixture.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // The plugin and the programs as users run them.
 
