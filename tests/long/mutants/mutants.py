@@ -11,6 +11,7 @@ import concurrent.futures
 import os
 import pathlib
 import queue
+import resource
 import shutil
 import subprocess
 import sys
@@ -21,6 +22,7 @@ from faults import FAULTS, SCENES
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
 PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications")
 LONGEST_RUN = 900  # seconds; a fault may make a test loop
+STACK = 64 << 20  # bytes: without inlining, the deepest scenes need more than the usual 8 MB
 
 
 def run(command, log, **more):
@@ -174,6 +176,7 @@ def main():
         for fault in faults:
             print(f"{fault.file}: {fault.name}")
         return 0
+    resource.setrlimit(resource.RLIMIT_STACK, (STACK, resource.getrlimit(resource.RLIMIT_STACK)[1]))
     begin = time.monotonic()
     copies = [Scratch(arguments.work.resolve() / str(number)) for number in range(max(1, min(arguments.jobs, len(faults))))]
     targets = sorted({fault.target for fault in faults})
