@@ -776,6 +776,8 @@ FAULTS = [
     Fault("levels of detail below transforms are chosen by a distance to the transform", "src/kit/cull/ShownChildren.h",
           "fromEye = byDistance ? affineInverse(toEye)", "fromEye = byDistance ? affineInverse(*visitor.getModelViewMatrix())",
           NODE, "ComputedNear.*:HiddenByTerrain.*"),
+    Fault("switches show all of their children", "src/kit/cull/ShownChildren.h",
+          "(!choice || choice->getValue(i)) && ", "", NODE, "HiddenByTerrain.*"),
     Fault("all levels of detail are shown", "src/kit/cull/ShownChildren.h",
           "if (distance + room < nearest || distance - room >= end) continue;", "", NODE, "ComputedNear.*:HiddenByTerrain.*"),
     Fault("families are made anew for each mesh that changes", "src/kit/cull/TileFamily.cpp",

@@ -65,6 +65,7 @@ bool staysBehind(osg::Node& node, const StateRules& rules, osgUtil::CullVisitor&
     if (!drawn.obeysDepth || !node.isCullingActive() || !drawsWithinSphere(node)) return false;
     osg::Group* const group = node.asGroup();
     return !group || forEachShown(*group, toEye, visitor, [&](osg::Node& child) {
+        if (!visitor.validNodeMask(child)) return true;
         const osg::Transform* const transform = child.asTransform();
         if (!transform) return staysBehind(child, rules, visitor, toEye);
         osg::Matrixd inside = toEye;

@@ -11,6 +11,7 @@
 #include <osg/LOD>
 #include <osg/Matrixd>
 #include <osg/PagedLOD>
+#include <osg/Switch>
 #include <osgUtil/CullVisitor>
 
 #include <optional>
@@ -28,8 +29,10 @@ template <class Visit>
     const std::optional<osg::Matrixd> fromEye = byDistance ? affineInverse(toEye) : std::nullopt;
     const unsigned int children = group.getNumChildren();
     if (!fromEye) {
+        const bool isActive = visitor.getTraversalMode() == osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN;
+        const auto* const choice = isActive && isOneOf<osg::Switch>(group) ? group.asSwitch() : nullptr;
         for (unsigned int i = 0; i < children; ++i)
-            if (!visit(*group.getChild(i))) return false;
+            if ((!choice || choice->getValue(i)) && !visit(*group.getChild(i))) return false;
         return true;
     }
     constexpr double kRounding = 1e-6;  // of positions in floats
