@@ -313,6 +313,28 @@ TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
     }
 }
 
+// Thousands of models that OSG leaves out at once, by their spheres or as levels that are too far.
+TEST(ComputedNear, DoesNotDependOnWhatOsgDoesNotEnter) {
+    struct Unknown : osg::Group {};
+    ComputedPlanes planes;
+    const osg::ref_ptr<osg::Group> stranger = new Unknown;
+    for (int i = 0; i < 2000; ++i) stranger->addChild(planes.drawableAhead(-1e5));
+    planes.scene->addChild(makeGroup({stranger}));
+    EXPECT_TRUE(planes.hidesFarTile());
+    // the class may move before its sphere is tested
+    planes.scene->addChild(stranger);
+    EXPECT_FALSE(planes.hidesFarTile());
+    planes.scene->removeChild(stranger);
+    // in view
+    const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->addChild(makeGroup({planes.drawableAhead(1e10), new Unknown}), 5e9f, 2e10f);
+    const osg::Vec3d center = levels->getChild(0)->getBound().center();
+    planes.scene->addChild(makeTransform(osg::Matrixd::translate(center * -0.9), {levels}));
+    EXPECT_TRUE(planes.hidesFarTile());
+    levels->setRange(0, 0.0f, 2e10f);
+    EXPECT_FALSE(planes.hidesFarTile());
+}
+
 TEST(ComputedNear, IsUnknownBesideWhatIsUnknown) {
     struct Unknown : osg::Group {};
     for (const bool isClass : {true, false}) {

@@ -121,16 +121,42 @@ void wrapInLevel(osg::MatrixTransform& model, float radius = 0.0f) {
     lod->setRange(0, 0.0f, 1e9f);
 }
 
+osg::ref_ptr<osg::Node> signOf(osg::MatrixTransform& model) {
+    const osg::ref_ptr<osg::Geometry> sign = new osg::Geometry(geometryOf(model));
+    ignoreDepth(*sign);
+    return sign;
+}
+
+void addSwitchedSign(osg::MatrixTransform& model, bool isOn, osg::Node::NodeMask mask) {
+    const osg::ref_ptr<osg::Switch> choice = new osg::Switch;
+    choice->addChild(signOf(model), isOn);
+    choice->getChild(0)->setNodeMask(mask);
+    wrap(model, *choice);
+}
+
+// A second level of the model, in another place and in front of all, that is shown nearer than a distance.
+void addSign(osg::MatrixTransform& model, float distance) {
+    wrapInLevel(model);
+    model.getChild(0)->asGroup()->addChild(signOf(model));
+    dynamic_cast<osg::LOD&>(*model.getChild(0)).setRange(1, 0.0f, distance);
+    wrap(model, *new osg::MatrixTransform(osg::Matrixd::translate(1.0, 2.0, 3.0)));
+}
+
 // What may be drawn in front of terrain, or outside of its sphere, is drawn. More of it: tests/scenes/models-*.scene.
 TEST(HiddenByTerrain, LeavesOutModelsOfManyKindsButNotWhatMayBeSeenAllTheSame) {
     const std::vector<std::pair<std::string, ModelChange>> hidden{
         {"levels of detail", [](auto& model) { wrapInLevel(model); }},
+        {"a sign that is too far", [](auto& model) { addSign(model, 50000.0f); }},
+        {"a sign that is switched off", [](auto& model) { addSwitchedSign(model, false, ~0u); }},
+        {"a sign that is masked", [](auto& model) { addSwitchedSign(model, true, 0); }},
         {"a level in a sphere of the user's", [](auto& model) { wrapInLevel(model, 200.0f); }},
         {"another node that asks",
          [](auto& model) { model.getChild(0)->addCullCallback(new HiddenByTerrainCallback); }},
         {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }},
     };
     const std::vector<std::pair<std::string, ModelChange>> seen{
+        {"a sign", [](auto& model) { addSign(model, 150000.0f); }},
+        {"a sign that is switched on", [](auto& model) { addSwitchedSign(model, true, ~0u); }},
         {"a bin of its own", [](auto& model) { stateOf(model).setRenderBinDetails(3, "SomeBin"); }},
         {"smooth edges", [](auto& model) { stateOf(model).setMode(GL_POLYGON_SMOOTH, osg::StateAttribute::ON); }},
         {"points", [](auto& model) { geometryOf(model).getPrimitiveSet(0)->setMode(GL_POINTS); }},

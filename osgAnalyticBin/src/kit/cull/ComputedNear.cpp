@@ -5,11 +5,13 @@
 
 #include "../Classes.h"
 #include "../Inverse.h"
-#include "../PagedChildren.h"
 #include "../Scoped.h"
+#include "../tile/BoundWatch.h"
 #include "CullCallbacks.h"
+#include "CullScopes.h"
 #include "DrawnState.h"
 #include "FamilyTile.h"
+#include "ShownChildren.h"
 #include "Viewpoint.h"
 
 #include <osgAnalyticBin/Declarations.h>
@@ -37,6 +39,11 @@ bool isPlainGroup(const osg::Node& node) {
            (isOneOf<osg::PagedLOD, osg::LOD, osg::Switch, osg::LightSource>(node) || drawsAllChildren(node));
 }
 
+// Whether OSG's sphere of a node holds those of its children: a plane that has it inside is not tested below.
+bool isHeldBySphere(const osg::Node* node) {
+    return drawsAllChildren(*node) && !BoundWatch::hasOwnBound(*node);
+}
+
 }  // namespace
 
 // The farthest depth of nodes with all that is below them.
@@ -44,7 +51,10 @@ class ComputedNear::DepthSearch {
 public:
     // `selection`: of nodes that are asked for by themselves; null: none.
     DepthSearch(osgUtil::CullVisitor& visitor, const TileSelection* selection)
-        : _visitor(visitor), _selection(selection) {}
+        : _visitor(visitor), _selection(selection) {
+        const osg::NodePath& path = visitor.getNodePath();
+        _areSpheresTested = !selection && std::all_of(path.begin(), path.end(), isHeldBySphere);
+    }
 
     [[nodiscard]] double farthest() const { return _farthest; }
 
@@ -68,6 +78,7 @@ public:
     // `toEye`: from the node's parent. Returns: false where its depth is not known.
     [[nodiscard]] bool add(osg::Node& node, const osg::Matrixd& toEye) {
         if (!_visitor.validNodeMask(node) || (_known && _known->isMesh(node))) return true;
+        if (_areSpheresTested && isLeftOut(node, toEye)) return true;
         const CullCallbacks callbacks(node);
         // kept nodes come one by one
         if (callbacks.family && _selection && _selection->hasSegment(*callbacks.family)) return true;
@@ -87,28 +98,18 @@ public:
             addBox(node.asDrawable()->getBoundingBox(), toEye);
             return true;
         }
+        const Scoped spheres(_areSpheresTested, _areSpheresTested && isHeldBySphere(&node));
         osg::Matrixd inside = toEye;
         if (const osg::Transform* const transform = node.asTransform())
             transform->computeLocalToWorldMatrix(inside, &_visitor);
-        if (isOneOf<osg::LOD, osg::PagedLOD>(node) && inside == *_visitor.getModelViewMatrix() &&
-            choosesByDistance(static_cast<osg::LOD&>(node), _visitor))
-            return addLevels(static_cast<osg::LOD&>(node), inside);
-        return addChildren(*node.asGroup(), inside, nullptr);
+        return forEachShown(*node.asGroup(), inside, _visitor, [&](osg::Node& child) { return add(child, inside); });
     }
 
 private:
-    // Adds the levels that OSG shows. Requires: OSG measures distances in the visitor's present frame.
-    [[nodiscard]] bool addLevels(osg::LOD& node, const osg::Matrixd& toEye) {
-        const float range = _visitor.getDistanceToViewPoint(node.getCenter(), true);
-        const unsigned int children = node.getNumChildren();
-        bool isOneAwaited = false;
-        for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
-            if (!isInRange(node, i, range)) continue;
-            isOneAwaited = isOneAwaited || i >= children;
-            if (i < children && !add(*node.getChild(i), toEye)) return false;
-        }
-        // the last child stands in for one that is awaited
-        return !isOneAwaited || children == 0 || add(*node.getChild(children - 1), toEye);
+    // In the visitor's own frame, where most models are.
+    [[nodiscard]] bool isLeftOut(const osg::Node& node, const osg::Matrixd& toEye) const {
+        return toEye == *_visitor.getModelViewMatrix() &&
+               isLeftOutAtOnce(_visitor.getCurrentCullingSet(), ~core::PlaneMask{0}, node);
     }
 
     void addBox(const osg::BoundingBox& box, const osg::Matrixd& toEye) {
@@ -117,6 +118,7 @@ private:
 
     osgUtil::CullVisitor& _visitor;
     const TileSelection* const _selection;
+    bool _areSpheresTested = false;
     const FamilyTile* _known = nullptr;
     int _nodesLeft = 1024;
     bool _isCounting = true;

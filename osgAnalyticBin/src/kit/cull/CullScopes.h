@@ -16,9 +16,14 @@
 #include <osg/CullSettings>
 #include <osg/CullStack>
 #include <osg/CullingSet>
+#include <osg/Geode>
+#include <osg/Group>
+#include <osg/LOD>
+#include <osg/MatrixTransform>
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
+#include <osg/PositionAttitudeTransform>
 
 #include <cstddef>
 
@@ -86,6 +91,14 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     undecided = frustum.getResultMask();
     setUndecided(frustum, before);
     return isCulled;
+}
+
+/// Whether osgUtil::CullVisitor only tests the sphere of a node, and it is out of view. Nodes of other classes may
+/// change before that, as osg::AutoTransform does.
+[[nodiscard]] inline bool isLeftOutAtOnce(osg::CullingSet& cullingSet, core::PlaneMask undecided,
+                                          const osg::Node& node) {
+    return isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform, osg::Group, osg::Geode, osg::LOD>(node) &&
+           isSphereCulled(cullingSet, undecided, node);
 }
 
 /// While it exists, the visitor asks for no files.

@@ -7,6 +7,7 @@
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
+#include "ShownChildren.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
@@ -57,15 +58,20 @@ bool drawsWithinSphere(const osg::Node& node) {
     return !lod || holdsLevels(*lod);
 }
 
-// Whether all that may be drawn below a node is within its sphere and nowhere in front of what is nearer.
-bool staysBehind(const osg::Node& node, const StateRules& rules) {
+// Whether all that may be drawn of a node is within its sphere and nowhere in front of what is nearer. `toEye`: from
+// inside the node.
+bool staysBehind(osg::Node& node, const StateRules& rules, osgUtil::CullVisitor& visitor, const osg::Matrixd& toEye) {
     const DrawnState drawn = drawnStateAt(node, rules);
     if (!drawn.obeysDepth || !node.isCullingActive() || !drawsWithinSphere(node)) return false;
-    const osg::Group* const group = node.asGroup();
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        if (!staysBehind(*group->getChild(i), rules)) return false;
-    }
-    return true;
+    osg::Group* const group = node.asGroup();
+    return !group || forEachShown(*group, toEye, visitor, [&](osg::Node& child) {
+        if (!visitor.validNodeMask(child)) return true;
+        const osg::Transform* const transform = child.asTransform();
+        if (!transform) return staysBehind(child, rules, visitor, toEye);
+        osg::Matrixd inside = toEye;
+        transform->computeLocalToWorldMatrix(inside, nullptr);
+        return staysBehind(child, rules, visitor, inside);
+    });
 }
 
 // What is below a transform has its sphere in the transform's own frame, where it is rounded less.
@@ -74,12 +80,12 @@ osg::BoundingSphere sphereBelow(const osg::Node& node) {
     return group ? group->osg::Group::computeBound() : node.getBound();
 }
 
-bool isHidden(const osg::Node& node, osgUtil::CullVisitor& visitor) {
+bool isHidden(osg::Node& node, osgUtil::CullVisitor& visitor) {
     HidingView& hiding = CullTraversal::of(visitor).hiding;
     if (!hiding.hides(visitor, sphereBelow(node), *visitor.getModelViewMatrix())) return false;
     const StateRules rules{false, false, visitor.getViewport()};
     const DrawnState above = hiding.stateAbove(visitor, rules);
-    return above.obeysDepth && staysBehind(node, rules);
+    return above.obeysDepth && staysBehind(node, rules, visitor, *visitor.getModelViewMatrix());
 }
 
 }  // namespace

@@ -13,11 +13,8 @@
 #include "CullCallbacks.h"
 #include "CullScopes.h"
 
-#include <osg/Geode>
 #include <osg/LOD>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osg/PositionAttitudeTransform>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -156,19 +153,12 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
             if (hasBit(verdicts.members, number)) return selectMember(child, siblings, first + number);
             isChanged = isChanged || !family.isKnown(first + number, child);
             if (!family.isWithoutTiles(first + number, child, moved)) return selectNode(child);
-            if (_keeps && !isLeftOutAtOnce(child)) (void)keep(child, nullptr, Way::Plain);
+            osg::CullingSet& cullingSet = _view.cullStack.getCurrentCullingSet();
+            if (!_keeps || (_isPlainVisitor && isLeftOutAtOnce(cullingSet, _undecided, child))) return;
+            (void)keep(child, nullptr, Way::Plain);
         });
     }
     if (isChanged && _keeps) _view.database->noteChanged(group);
-}
-
-// Whether OSG only tests the sphere of a model that is no tile. Nodes of other classes may change before that, as
-// osg::AutoTransform does.
-bool SelectionWalk::isLeftOutAtOnce(const osg::Node& model) const {
-    core::PlaneMask left = _undecided;
-    return _isPlainVisitor &&
-           isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform, osg::Group, osg::Geode, osg::LOD>(model) &&
-           isSphereCulled(_view.cullStack.getCurrentCullingSet(), left, model);
 }
 
 // Of the family's tiles, those that are neither out of view nor small. Counts them.

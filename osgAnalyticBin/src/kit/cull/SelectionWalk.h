@@ -100,7 +100,6 @@ private:
     void selectFamily(osg::Group& group, const TileFamily& family);
     [[nodiscard]] std::uint64_t keptOf(const TileFamily& family, unsigned int first,
                                        const TileFamily::Verdicts& verdicts);
-    [[nodiscard]] bool isLeftOutAtOnce(const osg::Node& model) const;
     void countGain(const TileFamily& family, unsigned int first, std::uint64_t members, std::uint64_t culled);
     void describe(Siblings& siblings, const TileBlock::Part& part) const;
     void selectMember(osg::Node& node, const Siblings& siblings, unsigned int slot);

@@ -532,9 +532,11 @@ void ContentWatch::check(const osg::Node& node) const {
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
     const TileFamily* const family = TileFamily::of(node);
     std::size_t fitted = 0;
+    int moved = 0;
     bool hasMore = false;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
+        if (family && family->isWithoutTiles(i, child, moved) && !isInTileNow()) continue;
         const bool isDue = isBoundDue(child);
         const bool isUnchanged = isOwnFrame && !isDue && isHeld(i, child);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
