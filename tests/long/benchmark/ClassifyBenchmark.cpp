@@ -16,17 +16,12 @@
 #include <osg/Polytope>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <support/RandomBins.h>
 #include <support/View.h>
 #include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -19,8 +19,6 @@
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <cinttypes>
-#include <cstdio>
-#include <cstdlib>
 #include <support/Planets.h>
 #include <support/RandomViews.h>
 

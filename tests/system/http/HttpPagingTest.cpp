@@ -8,19 +8,10 @@
 #include "PagedFlight.h"
 #include "SmallGlobe.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <regex>
-#include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {

@@ -5,21 +5,16 @@
 
 #pragma once
 
-#include "CullFixture.h"
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/Drawable>
-#include <osg/Geometry>
 #include <osg/Light>
-#include <osgDB/WriteFile>
 #include <osgUtil/PositionalStateContainer>
-#include <osgUtil/RenderStage>
 #include <osgUtil/UpdateVisitor>
 
-#include <support/GridMesh.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {

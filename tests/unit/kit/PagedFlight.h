@@ -6,7 +6,6 @@
 #include "CullFixture.h"
 
 #include <osg/Drawable>
-#include <osg/FrameStamp>
 #include <osg/Node>
 #include <osg/PagedLOD>
 #include <osgDB/DatabasePager>

@@ -7,19 +7,13 @@
 
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
 #include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <filesystem>
-#include <string>
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {

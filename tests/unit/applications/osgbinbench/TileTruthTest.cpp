@@ -7,10 +7,8 @@
 #include "TileTruth.h"
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
 
 #include <DatabaseFixture.h>
-#include <cmath>
 #include <support/RandomViews.h>
 
 namespace osgAnalyticBin::bench {

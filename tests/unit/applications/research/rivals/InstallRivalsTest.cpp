@@ -8,12 +8,10 @@
 #include "Rivals.h"
 
 #include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
