@@ -19,7 +19,6 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <support/RandomBins.h>
 #include <support/View.h>
 #include <utility>
 

@@ -20,7 +20,7 @@
 
 #include <cinttypes>
 #include <support/Planets.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -25,7 +25,7 @@
 #include <initializer_list>
 #include <support/Numbers.h>
 #include <support/Planets.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 #include <utility>
 
 namespace osgAnalyticBin::test {

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <support/Numbers.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::test {
 namespace {

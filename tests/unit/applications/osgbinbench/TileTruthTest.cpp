@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <DatabaseFixture.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::bench {
 namespace {

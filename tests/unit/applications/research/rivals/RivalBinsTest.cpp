@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <optional>
 #include <support/Numbers.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::test {
 namespace {
