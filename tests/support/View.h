@@ -17,8 +17,8 @@ struct View {
     glm::dvec3 forward{1.0, 0.0, 0.0}, right{0.0, 1.0, 0.0}, up{0.0, 0.0, 1.0};
     double halfWidth = 0.5;
     bool orthographic = false;
-    double nearDistance = -std::numeric_limits<double>::infinity();
-    double farDistance = std::numeric_limits<double>::infinity();
+    double nearDistance = -kInfinity;
+    double farDistance = kInfinity;
 
     /// Turns the camera to look along a direction, rolled at random.
     void lookAlong(const glm::dvec3& direction, Random& random) noexcept;

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <support/Numbers.h>
 #include <support/View.h>
 
 namespace osgAnalyticBin::test {

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <support/Numbers.h>
 #include <support/View.h>
 
 namespace osgAnalyticBin::test {
