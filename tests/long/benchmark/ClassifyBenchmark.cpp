@@ -7,7 +7,6 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 
 #include <benchmark/benchmark.h>

@@ -10,11 +10,9 @@
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 
-#include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 #include <osgDB/ReaderWriter>
-#include <osgDB/Registry>
 
 #include <PagedFlight.h>
 #include <support/CapturedNotes.h>
