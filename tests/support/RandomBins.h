@@ -3,11 +3,14 @@
 
 #pragma once
 
+#include <limits>
 #include <support/GeodeticOracle.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test {
 
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kHalfPi = 0.5 * kPi;
 inline constexpr double kRadiansPerDegree = kPi / 180.0;

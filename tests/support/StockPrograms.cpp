@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
 

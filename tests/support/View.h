@@ -3,8 +3,9 @@
 
 #pragma once
 
-#include <support/GeodeticOracle.h>
-#include <support/Random.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+
+#include <support/RandomBins.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -16,8 +17,8 @@ struct View {
     glm::dvec3 forward{1.0, 0.0, 0.0}, right{0.0, 1.0, 0.0}, up{0.0, 0.0, 1.0};
     double halfWidth = 0.5;
     bool orthographic = false;
-    double nearDistance = -std::numeric_limits<double>::infinity();
-    double farDistance = std::numeric_limits<double>::infinity();
+    double nearDistance = -kInfinity;
+    double farDistance = kInfinity;
 
     /// Turns the camera to look along a direction, rolled at random.
     void lookAlong(const glm::dvec3& direction, Random& random) noexcept;
@@ -42,5 +43,34 @@ struct View {
 /// The same for the half line from a point along a direction.
 [[nodiscard]] bool halfLineMissesOccluder(const core::Ellipsoid& ellipsoid, double depth, const RealVector& from,
                                           const RealVector& direction) noexcept;
+
+/// The depth of an occluder: of terrain on earth mostly; above the ellipsoid, and of the coarsest meshes' sag.
+[[nodiscard]] double randomDepth(Random& random) noexcept;
+
+/// Just above the occluder, near the ground, over a pole, in orbit, up to 1e9 m away; seldom inside.
+[[nodiscard]] glm::dvec3 randomEye(Random& random, const core::Ellipsoid& ellipsoid, double depth) noexcept;
+
+/// A bin, a point of it or within the margin of one, and an eye that sees the point just past the occluder, or nearly
+/// does.
+struct LineOfSight {
+    core::Ellipsoid ellipsoid;
+    core::GeodeticBin bin;
+    double margin, depth;
+    RealVector target;
+    glm::dvec3 eye;
+};
+[[nodiscard]] LineOfSight randomLineOfSight(Random& random) noexcept;
+
+/// Perspective or orthographic, wide or narrow, with or without near and far planes, at the target, beside it, or
+/// anywhere; one in four stands in the target, a point of the bin, and looks away from one of the bin's faces.
+[[nodiscard]] View randomView(Random& random, const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
+                              const RealVector& target) noexcept;
+
+/// The planes moved inward or outward so that the point is inside each, of some by as little as 1e-9 m.
+void moveToHold(Random& random, const RealVector& point, double size, std::vector<core::Plane>& planes) noexcept;
+
+/// A point of the bin, or within the margin of one; often at an edge.
+[[nodiscard]] RealVector randomPointWithin(Random& random, const core::Ellipsoid& ellipsoid,
+                                           const core::GeodeticBin& bin, double margin) noexcept;
 
 }  // namespace osgAnalyticBin::test

@@ -7,7 +7,6 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 
 #include <benchmark/benchmark.h>
@@ -16,17 +15,11 @@
 #include <osg/Polytope>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
-#include <support/RandomBins.h>
 #include <support/View.h>
 #include <utility>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -6,8 +6,6 @@
 
 #include "Fuzz.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
 #include <osg/Notify>
 
 #include <kit/CullFixture.h>

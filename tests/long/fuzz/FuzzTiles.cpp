@@ -13,14 +13,10 @@
 #include <osg/Notify>
 #include <osg/Switch>
 #include <osg/ValueObject>
-#include <osgDB/Registry>
-#include <osgTerrain/Layer>
 #include <osgUtil/UpdateVisitor>
 
 #include <algorithm>
-#include <cmath>
 #include <kit/DatabaseFixture.h>
-#include <sstream>
 #include <support/WrittenAndRead.h>
 
 using namespace osgAnalyticBin;

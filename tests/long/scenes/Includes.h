@@ -10,9 +10,7 @@
 #include <osg/ArgumentParser>
 #include <osg/Billboard>
 #include <osg/Drawable>
-#include <osg/FrameStamp>
 #include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/Image>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
@@ -35,10 +33,7 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <iterator>
 #include <kit/CullFixture.h>
 #include <sstream>
-#include <stdexcept>
 #include <support/Random.h>
 #include <type_traits>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "Oracle.h"
-#include "States.h"
 
 namespace osgAnalyticBin::test {
 

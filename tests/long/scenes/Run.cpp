@@ -7,7 +7,6 @@
 #include "Callbacks.h"
 #include "Meshes.h"
 #include "Parts.h"
-#include "States.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 

@@ -11,7 +11,6 @@
 #include <osg/Group>
 #include <osg/Image>
 #include <osg/observer_ptr>
-#include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 
 #include <atomic>
@@ -22,7 +21,6 @@
 #include <memory>
 #include <set>
 #include <support/Random.h>
-#include <support/VisitNodes.h>
 #include <thread>
 #include <typeinfo>
 

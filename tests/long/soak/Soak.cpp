@@ -9,19 +9,12 @@
 
 #include <osg/ArgumentParser>
 
-#include <atomic>
-#include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <execinfo.h>
 #include <iomanip>
-#include <iostream>
 #include <malloc.h>
 #include <new>
-#include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <unistd.h>
 

@@ -9,7 +9,6 @@
 #include "OcclusionScene.h"
 
 #include <cinttypes>
-#include <cstdio>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -19,10 +19,8 @@
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <cinttypes>
-#include <cstdio>
-#include <cstdlib>
 #include <support/Planets.h>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -10,8 +10,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
-#include <cmath>
-#include <string>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {

@@ -14,15 +14,12 @@
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 #include <osgUtil/SceneView>
 #include <osgUtil/UpdateVisitor>
 #include <osgViewer/Renderer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <chrono>
-#include <iterator>
 #include <kit/DatabaseFixture.h>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>

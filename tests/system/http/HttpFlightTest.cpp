@@ -8,13 +8,8 @@
 #include "Report.h"
 #include "SmallGlobe.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <set>
-#include <string>
-#include <support/StockPrograms.h>
-#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
 namespace {

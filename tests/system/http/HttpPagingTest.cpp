@@ -8,19 +8,9 @@
 #include "PagedFlight.h"
 #include "SmallGlobe.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
-#include <osgDB/Registry>
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <regex>
-#include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -47,17 +37,6 @@ CullView view() {
     up.normalize();
     const osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
     return CullView::lookAt(eye, eye - up + east, up, 50.0);
-}
-
-// All of which have their bins.
-int tilesOf(osg::Node& scene) {
-    int tiles = 0;
-    test::visitNodes(scene, [&tiles](osg::Node& node) {
-        if (!dynamic_cast<osg::PagedLOD*>(&node)) return;
-        ++tiles;
-        EXPECT_TRUE(dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()));
-    });
-    return tiles;
 }
 
 class HttpPaging : public ::testing::Test {
@@ -132,11 +111,11 @@ protected:
 TEST_F(HttpPaging, DrawsWhatIsDrawnFromFilesAndEveryTileHasItsBin) {
     ASSERT_TRUE(nginx.start());
     const osg::ref_ptr<osg::Node> scene = read(nginx.url("earth.osgb"), ".(method=exact)");
-    const int before = tilesOf(*scene);
+    const std::size_t before = test::tilesWith<AnalyticBinCullCallback>(*scene);
     PagedFlight flight(*scene);
     ASSERT_TRUE(flight.load(view()));
     EXPECT_EQ(flight.drawn(), whole);
-    EXPECT_GT(tilesOf(*scene), before);
+    EXPECT_GT(test::tilesWith<AnalyticBinCullCallback>(*scene), before);
     for (const Nginx::Request& request : nginx.requests())
         EXPECT_TRUE(request.status == 200 || !request.isTile()) << request.path;
 }

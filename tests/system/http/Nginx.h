@@ -9,10 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
-#include <filesystem>
 #include <netinet/in.h>
-#include <sstream>
-#include <string>
 #include <support/TemporaryFolder.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>

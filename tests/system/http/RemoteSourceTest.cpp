@@ -7,12 +7,7 @@
 #include "Nginx.h"
 #include "TestRaster.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
 #include <support/StockPrograms.h>
-#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
 namespace {

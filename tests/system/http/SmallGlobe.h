@@ -6,7 +6,6 @@
 #include "TestRaster.h"
 
 #include <filesystem>
-#include <string>
 #include <support/StockPrograms.h>
 
 namespace osgAnalyticBin::test {

@@ -6,23 +6,14 @@
 //     osganalyticbin_windows_trial FOLDER
 // Exit code: 0 if all this worked.
 
-#include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
-
-#include <osg/Group>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <stdexcept>
-#include <string>
 #include <support/SyntheticDatabase.h>
 #include <support/VisitNodes.h>
 

@@ -3,13 +3,90 @@
 
 // Oracles: classify() of a bin by itself (tested in PlaneSetTest) and HorizonEye::hides() (HorizonTest), bit for bit.
 
-#include "FamilySamples.h"
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::BinFamily;
 using core::FamilyVerdict;
+
+/// In which form a slot of a family got its bin.
+enum class SlotKind { Either, Exact, Quadratic, Empty };
+
+/// A bin in all forms, and which one the family has.
+struct Slot {
+    core::QuadraticOrExact either;
+    ExactGeodeticBin exact;
+    QuadraticBin quadratic;
+    HorizonBin horizon;
+    SlotKind kind;
+    bool hasHorizon;
+};
+
+/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, and slots are empty or
+/// cleared.
+struct FamilyCase {
+    explicit FamilyCase(Random& random)
+        : ellipsoid(randomEllipsoid(random)),
+          family(static_cast<std::size_t>(random.chance(0.02) ? 64 : random.integer(1, 9))) {
+        const bool areSiblings = random.chance(0.5);
+        const GeodeticBin parent = randomTile(random, random.integer(0, kDeepestLevel), randomAltitude(random));
+        const SlotKind common = random.chance(0.5) ? SlotKind::Either : SlotKind::Exact;
+        const bool isMixed = random.chance(0.3);
+        std::vector<BinOracle> oracles;
+        for (std::size_t i = 0; i < family.size(); ++i) {
+            oracles.emplace_back(ellipsoid, areSiblings ? siblingOf(random, parent, i) : randomBin(random));
+            constexpr std::array<SlotKind, 4> kKinds{SlotKind::Either, SlotKind::Exact, SlotKind::Quadratic,
+                                                     SlotKind::Empty};
+            addSlot(random, oracles.back().bin(), i, isMixed ? random.pick(kKinds) : common);
+        }
+        addRandomPlanes(random, oracles, planes);
+        undecided = random.chance(0.5) ? planes.all() : static_cast<PlaneMask>(random.bits());
+        candidates = random.chance(0.5) ? ~std::uint64_t{0} : random.bits();
+        const double depth = randomDepth(random);
+        eye = HorizonEye::fromEye(ellipsoid, depth, randomEye(random, ellipsoid, depth));
+    }
+
+    Ellipsoid ellipsoid;
+    BinFamily family;
+    std::vector<Slot> slots;
+    PlaneSet planes;
+    PlaneMask undecided = 0;
+    std::optional<HorizonEye> eye;
+    std::uint64_t candidates = 0;
+
+private:
+    static GeodeticBin siblingOf(Random& random, const GeodeticBin& parent, std::size_t i) {
+        const auto part = [](const Interval& whole, std::size_t k) {
+            const double lower = whole.lower + whole.width() * (0.25 * static_cast<double>(k % 4));
+            return Interval{lower, std::min(whole.upper, lower + 0.25 * whole.width())};
+        };
+        Interval altitude = parent.altitude();
+        altitude.upper = altitude.lower + altitude.width() * random.uniform();
+        return {part(parent.latitude(), i / 4), part(parent.longitude(), i), altitude};
+    }
+
+    void addSlot(Random& random, const GeodeticBin& bin, std::size_t i, SlotKind kind) {
+        const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e4);
+        slots.push_back({core::quadraticOrExact(ellipsoid, bin, margin), ExactGeodeticBin(ellipsoid, bin, margin),
+                         QuadraticBin(GeodeticMapping(ellipsoid), core::parameterBox(bin), margin),
+                         HorizonBin(ellipsoid, bin, margin), kind, random.chance(0.9)});
+        const Slot& slot = slots.back();
+        // What was in the slot before must not matter.
+        if (random.chance(0.2)) family.set(i, slot.exact);
+        if (random.chance(0.2)) family.set(i, slot.quadratic);
+        if (random.chance(0.2)) {
+            family.setHorizon(i, slot.horizon);
+            family.clear(i);
+        }
+        if (kind == SlotKind::Empty && (random.chance(0.5) || family.filled() != 0)) family.clear(i);
+        if (kind == SlotKind::Either) std::visit([&](const auto& form) { family.set(i, form); }, slot.either);
+        if (kind == SlotKind::Exact) family.set(i, slot.exact);
+        if (kind == SlotKind::Quadratic) family.set(i, slot.quadratic);
+        if (slot.hasHorizon) family.setHorizon(i, slot.horizon);
+    }
+};
 
 bool has(std::uint64_t slots, std::size_t i) {
     return (slots >> i & 1) != 0;

@@ -4,7 +4,7 @@
 // Oracles: the same form in long double, which shares no code (tested itself in EllipsoidTest), samples of the
 // bin. Ten million more pairs of bin and plane: Soundness.cpp. Many planes at once: PlaneSetTest.
 
-#include "BinChecks.h"
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

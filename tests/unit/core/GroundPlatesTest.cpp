@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "CoreTest.h"
-#include "MeshSamples.h"
 #include "OcclusionScene.h"
 
 namespace osgAnalyticBin::test {

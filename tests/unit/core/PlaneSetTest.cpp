@@ -5,7 +5,7 @@
 // kernels bit for bit. And the plane's sign convention. The search for a parting plane: libccd says which hulls meet.
 // Planets and Soundness.cpp (ten million trials) test bins with a point that is known to be inside the frustum.
 
-#include "FamilySamples.h"
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,7 +5,7 @@
 // Soundness.cpp. Of the range of the polynomial: the stationary points of the cube, its faces and its edges, solved in
 // long double by elimination with pivoting, and its vertices.
 
-#include "BinChecks.h"
+#include "CoreTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -6,8 +6,6 @@
 
 #include "KitTest.h"
 
-#include <sstream>
-
 namespace osgAnalyticBin::test {
 namespace {
 

@@ -8,8 +8,6 @@
 #include "../../osgAnalyticBin/src/index/Checksum.h"
 #include "KitTest.h"
 
-#include <sstream>
-
 namespace osgAnalyticBin::test {
 namespace {
 

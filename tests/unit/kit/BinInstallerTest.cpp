@@ -5,7 +5,8 @@
 // tiles it treats are culled rightly is tested in AnalyticBinCullCallbackTest.cpp; what it does to paged files in
 // PagingTest.cpp.
 
-#include "CountedReads.h"
+#include "KitTest.h"
+#include "PagedFlight.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -10,11 +10,7 @@
 
 #include <osgAnalyticBin/Declarations.h>
 
-#include <osg/Viewport>
-
-#include <iterator>
 #include <mutex>
-#include <support/Random.h>
 #include <support/View.h>
 
 namespace osgAnalyticBin::test {

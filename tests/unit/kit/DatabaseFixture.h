@@ -8,14 +8,9 @@
 #include "CullFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
-#include <osgTerrain/Terrain>
-#include <osgTerrain/TerrainTile>
 
 #include <support/GridMesh.h>
 

@@ -5,7 +5,7 @@
 // known not to cut anything open: meshes, states, callbacks, whatever an application makes of them. More of it, and all
 // states one by one: tests/scenes.
 
-#include "RidgeGlobe.h"
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

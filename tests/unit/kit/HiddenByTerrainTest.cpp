@@ -4,7 +4,7 @@
 // Models behind hills and behind the horizon. More of them: tests/scenes/models-*.scene. What the core proves:
 // SortedEarthTest.cpp, HorizonTest.cpp.
 
-#include "RidgeGlobe.h"
+#include "KitTest.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 

@@ -28,9 +28,6 @@
 #include <osgTerrain/ValidDataOperator>
 
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/VisitNodes.h>

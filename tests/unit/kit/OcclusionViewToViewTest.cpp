@@ -4,7 +4,7 @@
 // What was found behind a ridge serves the next views, and never longer than it holds.
 
 #include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
-#include "RidgeGlobe.h"
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -5,14 +5,17 @@
 
 #include "CullFixture.h"
 
+#include <gtest/gtest.h>
 #include <osg/Drawable>
-#include <osg/FrameStamp>
 #include <osg/Node>
 #include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
+#include <osgDB/Registry>
 #include <osgUtil/UpdateVisitor>
 
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <support/VisitNodes.h>
 #include <thread>
 
@@ -134,5 +137,57 @@ private:
     });
     return count;
 }
+
+/// Number of PagedLODs below the node. Expects each to have a cull callback of this class.
+template <class CullCallback>
+[[nodiscard]] std::size_t tilesWith(osg::Node& scene) {
+    std::size_t count = 0;
+    visitNodes(scene, [&](osg::Node& node) {
+        if (!dynamic_cast<osg::PagedLOD*>(&node)) return;
+        ++count;
+        EXPECT_TRUE(dynamic_cast<CullCallback*>(node.getCullCallback()));
+    });
+    return count;
+}
+
+/// Reads as OSG does, in any thread, and counts how often it is asked for each name.
+struct CountedReads : osgDB::ReadFileCallback {
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
+        count(name);
+        return osgDB::Registry::instance()->readNodeImplementation(name, options);
+    }
+
+    osgDB::ReaderWriter::ReadResult readObject(const std::string& name, const osgDB::Options* options) override {
+        count(name);
+        return osgDB::Registry::instance()->readObjectImplementation(name, options);
+    }
+
+    [[nodiscard]] std::map<std::string, int> counts() const {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        return _counts;
+    }
+
+    [[nodiscard]] int total() const {
+        int sum = 0;
+        for (const auto& [name, count] : counts()) sum += count;
+        return sum;
+    }
+
+    /// Of one name.
+    [[nodiscard]] int most() const {
+        int most = 0;
+        for (const auto& [name, count] : counts()) most = std::max(most, count);
+        return most;
+    }
+
+private:
+    void count(const std::string& name) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        ++_counts[name];
+    }
+
+    mutable std::mutex _mutex;
+    std::map<std::string, int> _counts;
+};
 
 }  // namespace osgAnalyticBin::test

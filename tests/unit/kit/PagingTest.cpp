@@ -5,7 +5,7 @@
 // keeps those out of view: its own rule, and CullOptions::expiry; time is simulated. And tiles that might be shared: by
 // osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they have read.
 
-#include "CountedReads.h"
+#include "KitTest.h"
 #include "PagedFlight.h"
 
 #include <osgDB/FileCache>

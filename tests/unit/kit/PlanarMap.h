@@ -14,9 +14,7 @@
 #include <osg/PagedLOD>
 #include <osgDB/WriteFile>
 #include <osgTerrain/Locator>
-#include <osgTerrain/Terrain>
 
-#include <cmath>
 #include <stdexcept>
 #include <support/GridMesh.h>
 

@@ -9,8 +9,6 @@
 
 #include "KitTest.h"
 
-#include <support/Numbers.h>
-
 namespace osgAnalyticBin::test {
 namespace {
 

@@ -6,7 +6,7 @@
 // real pager. How servers fail is tested in http/.
 
 #include "../../../osgAnalyticBin/src/kit/database/FailedReads.h"
-#include "CountedReads.h"
+#include "KitTest.h"
 #include "PagedFlight.h"
 
 #include <osg/Stats>

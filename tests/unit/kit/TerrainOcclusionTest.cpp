@@ -6,7 +6,7 @@
 // proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
-#include "RidgeGlobe.h"
+#include "KitTest.h"
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -6,8 +6,6 @@
 
 #include "KitTest.h"
 
-#include <osgAnalyticBin/Declarations.h>
-
 namespace osgAnalyticBin::test {
 namespace {
 

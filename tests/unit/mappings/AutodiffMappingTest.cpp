@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <support/GeodeticOracle.h>
 #include <support/RandomBins.h>
 #include <type_traits>
 

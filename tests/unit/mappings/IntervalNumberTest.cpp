@@ -7,9 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {

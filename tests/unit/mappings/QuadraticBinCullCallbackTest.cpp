@@ -14,7 +14,6 @@
 #include <osg/MatrixTransform>
 
 #include <algorithm>
-#include <cmath>
 #include <kit/CullFixture.h>
 #include <support/Random.h>
 

@@ -10,31 +10,15 @@
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 
-#include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/Drawable>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osg/Matrixd>
-#include <osg/Node>
-#include <osg/PagedLOD>
-#include <osgDB/ReadFile>
 #include <osgDB/ReaderWriter>
-#include <osgDB/Registry>
 
 #include <PagedFlight.h>
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <set>
-#include <sstream>
-#include <string>
 #include <support/CapturedNotes.h>
-#include <support/GridMesh.h>
 #include <support/PhotogrammetrySample.h>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {

@@ -13,8 +13,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <sstream>
-#include <string>
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>

@@ -6,12 +6,10 @@
 
 #include "CullFixture.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
-#include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>

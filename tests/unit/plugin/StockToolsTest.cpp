@@ -7,19 +7,11 @@
 
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
-#include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
-#include <osgDB/Registry>
 
-#include <filesystem>
-#include <string>
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -65,17 +57,6 @@ TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
 using test::CullView;
 using test::PagedFlight;
 
-// The coarse and the finer tiles of which all have their bins.
-std::size_t tilesWithBins(osg::Node& scene) {
-    std::size_t count = 0;
-    test::visitNodes(scene, [&](osg::Node& node) {
-        if (!dynamic_cast<osg::PagedLOD*>(&node)) return;
-        EXPECT_NE(dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()), nullptr);
-        ++count;
-    });
-    return count;
-}
-
 class Archive : public StockTools {
 protected:
     void SetUp() override {
@@ -110,7 +91,7 @@ TEST_F(Archive, IsDrawnAsItsFilesAreAndEveryTileHasItsBin) {
         const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + suffix);
         ASSERT_TRUE(packed) << suffix;
         EXPECT_EQ(drawnFrom(*packed), drawn) << suffix;
-        EXPECT_GT(tilesWithBins(*packed), 32u) << suffix;
+        EXPECT_GT(test::tilesWith<AnalyticBinCullCallback>(*packed), 32u) << suffix;
     }
 }
 
@@ -123,7 +104,7 @@ TEST_F(Archive, PackedWithoutTheModulesLosesTheDatabasesRequestAndKeepsTheBins) 
     ASSERT_TRUE(plain);
     EXPECT_EQ(plain->getUpdateCallback(), nullptr);
     const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + ".analyticbin");
-    EXPECT_GE(tilesWithBins(*packed), 32u);
+    EXPECT_GE(test::tilesWith<AnalyticBinCullCallback>(*packed), 32u);
 }
 
 }  // namespace

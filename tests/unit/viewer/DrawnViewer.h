@@ -12,7 +12,6 @@
 #include <osgText/Text>
 #include <osgViewer/Viewer>
 
-#include <string>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 #include <vector>

@@ -7,16 +7,12 @@
 #include "DatabaseFixture.h"
 #include "ViewerScene.h"
 
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osg/PolygonMode>
-#include <osgDB/WriteFile>
 
 #include <algorithm>
-#include <string>
 
 namespace osgAnalyticBin {
 namespace {

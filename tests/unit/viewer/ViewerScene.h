@@ -14,7 +14,6 @@
 #include <osgUtil/StateGraph>
 
 #include <cmath>
-#include <map>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 

@@ -6,18 +6,11 @@
 
 #include "FrustumHull.h"
 
-#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
-#include <support/RandomViews.h>
 #include <support/View.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -4,10 +4,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -7,25 +7,13 @@
 #include "ClusterCallbacks.h"
 #include "MethodScene.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/ClusterCullingCallback>
 #include <osg/NodeCallback>
-#include <osg/PagedLOD>
-#include <osgDB/ReadFile>
 #include <osgDB/Registry>
-#include <osgDB/WriteFile>
-#include <osgTerrain/TerrainTile>
 
-#include <CullFixture.h>
 #include <DatabaseFixture.h>
-#include <cmath>
-#include <filesystem>
-#include <support/GridMesh.h>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin::bench {
 namespace {

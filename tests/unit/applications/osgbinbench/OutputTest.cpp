@@ -7,13 +7,8 @@
 #include "Failure.h"
 #include "Output.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
 

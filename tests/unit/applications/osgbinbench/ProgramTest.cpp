@@ -6,16 +6,9 @@
 #include "Bench.h"
 #include "BenchProgram.h"
 
-#include <gtest/gtest.h>
-#include <osgDB/WriteFile>
-
 #include <PlanarMap.h>
-#include <filesystem>
-#include <sstream>
 #include <support/FailureText.h>
 #include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin {
 namespace {

@@ -9,12 +9,8 @@
 
 #include <osgAnalyticBin/CullOptions.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <string>
 #include <support/FailureText.h>
-#include <vector>
 
 namespace osgAnalyticBin::bench {
 namespace {

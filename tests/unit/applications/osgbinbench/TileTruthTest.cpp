@@ -7,11 +7,9 @@
 #include "TileTruth.h"
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
 
 #include <DatabaseFixture.h>
-#include <cmath>
-#include <support/RandomViews.h>
+#include <support/View.h>
 
 namespace osgAnalyticBin::bench {
 namespace {

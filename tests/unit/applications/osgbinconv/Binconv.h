@@ -7,18 +7,10 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 
-#include <gtest/gtest.h>
-#include <osgDB/WriteFile>
-
 #include <DatabaseFixture.h>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
 #include <support/FailureText.h>
-#include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 

@@ -5,13 +5,6 @@
 
 #include "Binconv.h"
 
-#include <osgAnalyticBin/BinIndex.h>
-
-#include <gtest/gtest.h>
-#include <osg/PagedLOD>
-
-#include <support/TemporaryFolder.h>
-
 namespace osgAnalyticBin::test {
 namespace {
 

@@ -6,22 +6,12 @@
 
 #include "Binconv.h"
 
-#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
-#include <gtest/gtest.h>
 #include <osgDB/FileNameUtils>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-#include <osgTerrain/TerrainTile>
 
 #include <PlanarMap.h>
-#include <TileFixture.h>
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
 namespace {

@@ -6,27 +6,18 @@
 
 #include "Binconv.h"
 
-#include <osgAnalyticBin/BinIndex.h>
-
-#include <gtest/gtest.h>
-#include <osg/Group>
 #include <osg/Image>
 #include <osg/ProxyNode>
 #include <osg/Texture2D>
 #include <osgDB/Options>
 #include <osgDB/Registry>
-#include <osgDB/WriteFile>
 
-#include <DatabaseFixture.h>
 #include <arpa/inet.h>
-#include <filesystem>
 #include <netinet/in.h>
 #include <poll.h>
-#include <support/TemporaryFolder.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {

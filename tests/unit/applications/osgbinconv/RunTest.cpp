@@ -5,10 +5,7 @@
 
 #include "Binconv.h"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <filesystem>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test {

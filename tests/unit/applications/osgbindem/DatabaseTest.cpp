@@ -11,10 +11,7 @@
 
 #include <osg/Texture2D>
 
-#include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <map>
 #include <set>
 #include <tuple>
 

@@ -11,7 +11,6 @@
 #include <gdal_alg.h>
 #include <gdal_utils.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <random>

@@ -9,10 +9,6 @@
 
 #include <osg/Texture2D>
 
-#include <algorithm>
-#include <filesystem>
-#include <stdexcept>
-
 namespace {
 
 constexpr Colour kBlue{10, 40, 230};

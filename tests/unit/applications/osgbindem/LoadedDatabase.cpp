@@ -5,17 +5,13 @@
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
 #include <TileFixture.h>
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <stdexcept>
 #include <support/VisitNodes.h>
 #include <tuple>
 

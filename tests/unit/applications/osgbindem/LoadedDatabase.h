@@ -12,10 +12,6 @@
 #include <osg/Geometry>
 #include <osg/PagedLOD>
 
-#include <functional>
-#include <string>
-#include <vector>
-
 /// One tile of a database as OpenSceneGraph loads it.
 struct LoadedTile {
     int level = 0;

@@ -7,11 +7,6 @@
 
 #include "RasterTest.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-
 namespace {
 
 using osgbindem::DemMosaic;

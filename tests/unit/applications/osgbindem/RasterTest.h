@@ -8,14 +8,9 @@
 #include "DemMosaic.h"
 #include "LoadedDatabase.h"
 #include "RasterFile.h"
-#include "TestRaster.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
-#include <vector>
 
 using osgAnalyticBin::test::Files;
 using osgAnalyticBin::test::filesBelow;

@@ -7,9 +7,6 @@
 
 #include "RasterTest.h"
 
-#include <filesystem>
-#include <fstream>
-
 namespace {
 
 namespace fs = std::filesystem;

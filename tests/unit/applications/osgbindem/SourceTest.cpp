@@ -7,8 +7,6 @@
 
 #include <gdal_utils.h>
 
-#include <filesystem>
-
 namespace {
 
 using osgbindem::DemMosaic;

@@ -7,9 +7,6 @@
 #include "RasterTest.h"
 #include "TestImage.h"
 
-#include <filesystem>
-#include <map>
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -6,11 +6,7 @@
 
 #include "CameraView.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <sstream>
-#include <string>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 
 #include <support/GridMesh.h>

@@ -6,13 +6,9 @@
 #include "Output.h"
 #include "Report.h"
 
-#include <gtest/gtest.h>
 #include <osg/Image>
 #include <osgDB/WriteFile>
 
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
 #include <support/FailureText.h>
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>

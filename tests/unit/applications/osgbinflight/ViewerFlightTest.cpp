@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <string>
 #include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>

@@ -11,19 +11,14 @@
 #include "ViewerScene.h"
 
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
-#include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>
 
-#include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
 #include <osg/PolygonMode>
 #include <osgGA/StateSetManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
-#include <cmath>
 
 namespace osgAnalyticBin::viewer {
 namespace {

@@ -3,10 +3,7 @@
 //
 // What osgbinviewer says when it cannot show a database: one line, and an exit code. No display is needed.
 
-#include <gtest/gtest.h>
-
 #include <support/FailureText.h>
-#include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {

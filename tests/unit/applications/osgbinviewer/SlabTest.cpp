@@ -8,15 +8,10 @@
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 
-#include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/Geometry>
 
 #include <DatabaseFixture.h>
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace osgAnalyticBin::viewer {
 namespace {

@@ -4,10 +4,8 @@
 #include "GlobeOptions.h"
 #include "ProceduralGlobe.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
-#include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
@@ -15,7 +13,6 @@
 #include <Tile.h>
 #include <TileFixture.h>
 #include <algorithm>
-#include <cmath>
 #include <support/FailureText.h>
 #include <support/Random.h>
 

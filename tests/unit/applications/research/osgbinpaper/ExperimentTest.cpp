@@ -12,15 +12,9 @@
 #include "TileTree.h"
 
 #include <glm/trigonometric.hpp>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <memory>
-#include <string>
 #include <support/FailureText.h>
-#include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::paper {

@@ -7,18 +7,13 @@
 #include "PagedFlight.h"
 #include "Rivals.h"
 
-#include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {
-
-using rivals::RivalCullCallback;
 
 TEST(Rivals, CullsAlsoWhatIsPagedIn) {
     const test::TemporaryFolder folder;
@@ -28,14 +23,7 @@ TEST(Rivals, CullsAlsoWhatIsPagedIn) {
     EXPECT_EQ(rivals::installRivals(*scene, {rivals::Rule::Corners}), 32U);
     test::PagedFlight flight(*scene);
     ASSERT_TRUE(flight.load(test::lookDown(1.0)));
-    std::size_t tiles = 0, byRule = 0;
-    test::visitNodes(*scene, [&](osg::Node& node) {
-        if (!dynamic_cast<osg::PagedLOD*>(&node)) return;
-        ++tiles;
-        byRule += dynamic_cast<RivalCullCallback*>(node.getCullCallback()) ? 1U : 0U;
-    });
-    EXPECT_EQ(byRule, tiles);
-    EXPECT_GT(tiles, 40U) << "32 are in the root file";
+    EXPECT_GT(test::tilesWith<rivals::RivalCullCallback>(*scene), 40U) << "32 are in the root file";
 }
 
 }  // namespace

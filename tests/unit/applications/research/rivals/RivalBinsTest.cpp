@@ -17,14 +17,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <support/Numbers.h>
-#include <support/RandomBins.h>
-#include <support/RandomViews.h>
 #include <support/View.h>
-#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
