@@ -139,7 +139,7 @@ FAULTS = [
           NAMED),
     Fault("no margin", "src/core/bin/QuadraticBin.cpp", "remainder(box) + margin)", "remainder(box))", CORE, "*QuadraticBin*"),
     Fault("no rounding of the polynomial", "src/core/bin/QuadraticBin.cpp", "kRounding = 128.0 *", "kRounding = 0.0 *", CORE,
-          "*QuadraticBin*:PlaneSet*:PlaneKernels*:Classify*"),
+          "*QuadraticBin*:PlaneSet*:PlaneKernels*"),
     Fault("mixed derivatives swapped", "src/core/bin/QuadraticBin.cpp", "hessians.uw * (e.x * e.z)", "hessians.vw * (e.x * e.z)",
           CORE, "*QuadraticBin*"),
     Fault("sign of a second derivative", "src/core/bin/GeodeticMapping.cpp", "- (m + h) * frame.up;  // f_pp",
@@ -155,7 +155,7 @@ FAULTS = [
           "addCorner(_numbers[row::SinNorth], _numbers[row::CosNorth], bin.altitude().upper)",
           "addCorner(_numbers[row::SinNorth], _numbers[row::CosNorth], bin.altitude().lower)", CORE, "ExactGeodeticBin*"),
     Fault("no rounding of the closed form", "src/core/bin/ExactGeodeticBin.cpp", "kRounding = 32.0 *", "kRounding = 0.0 *",
-          CORE, "ExactGeodeticBin*:PlaneSet*:PlaneKernels*:Classify*"),
+          CORE, "ExactGeodeticBin*:PlaneSet*:PlaneKernels*"),
     Fault("wide bins are taken for narrow ones", "src/core/bin/ExactGeodeticBin.cpp", ": row::kWide", ": row::kNarrow",
           CORE, "ExactGeodeticBin*"),
     Fault("half the width of a bin from its rounded middle", "src/core/bin/ExactGeodeticBin.cpp",
@@ -182,7 +182,7 @@ FAULTS = [
     Fault("families: exact lanes are lost beside quadratic ones", "src/core/kernels/FamilyStages.inl",
           "openExact = exclusive(known.open, openQuadratic)", "openExact = bits<Real>(0)", CORE, "BinFamily*"),
     Fault("planes that are decided stay undecided", "src/core/PlaneSet.cpp", "undecided &= ~sides.inside();", "", CORE,
-          "PlaneSet*:Classify*"),
+          "PlaneSet*"),
 
     # the horizon
     Fault("occluder higher than the deepest terrain", "src/core/horizon/Horizon.cpp", "(1.0 - depth / radius) * kDown",
