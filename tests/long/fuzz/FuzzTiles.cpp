@@ -17,7 +17,7 @@
 
 #include <algorithm>
 #include <kit/DatabaseFixture.h>
-#include <support/WrittenAndRead.h>
+#include <support/AnyScene.h>
 
 using namespace osgAnalyticBin;
 using namespace osgAnalyticBin::test;

@@ -12,7 +12,7 @@
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/ValidDataOperator>
 
-#include <support/WrittenAndRead.h>
+#include <support/AnyScene.h>
 
 namespace osgAnalyticBin::test {
 

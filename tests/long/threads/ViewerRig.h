@@ -14,7 +14,7 @@
 #include <osgViewer/Viewer>
 
 #include <cstddef>
-#include <support/VisitNodes.h>
+#include <support/AnyScene.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {

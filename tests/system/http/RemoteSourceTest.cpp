@@ -7,7 +7,7 @@
 #include "Nginx.h"
 #include "TestRaster.h"
 
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 
 namespace osgAnalyticBin {
 namespace {

@@ -6,7 +6,7 @@
 #include "TestRaster.h"
 
 #include <filesystem>
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 
 namespace osgAnalyticBin::test {
 

@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <support/AnyScene.h>
 #include <support/SyntheticDatabase.h>
-#include <support/VisitNodes.h>
 
 namespace {
 

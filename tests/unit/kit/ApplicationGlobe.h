@@ -100,12 +100,6 @@ struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
     return optionsOf("horizon=-50000");
 }
 
-inline CullOptions withOcclusion(OcclusionUse use = OcclusionUse::On) {
-    CullOptions options;
-    options.occlusion = use;
-    return options;
-}
-
 /// The place of a tile of a globe of 32.
 [[nodiscard]] inline core::GeodeticBin extentsOfTile(int number) {
     const double south = -90.0 + 45.0 * (number / 8), west = -180.0 + 45.0 * (number % 8);
@@ -181,7 +175,7 @@ struct RidgeGlobe : MeshGlobe {
 /// With bins that look for what is hidden.
 struct InstalledRidge : RidgeGlobe {
     explicit InstalledRidge(double ridgeHeight = 8000.0, int tilesInRow = 10) : RidgeGlobe(ridgeHeight, tilesInRow) {
-        installBins(*root, withOcclusion());
+        installBins(*root, optionsOf("occlusion=on"));
     }
 };
 

@@ -33,7 +33,7 @@ TEST(AddedLevels, HideWhatIsBehindThemUnlessTheyAreSeenThrough) {
         const auto file = makeGroup({makePaged(makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 8000.0), "no.osgb")});
         if (isBlended) file->getChild(0)->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
         addTo(*globe.row[2], file);
-        installBins(*globe.root, withOcclusion());
+        installBins(*globe.root, optionsOf("occlusion=on"));
         EXPECT_EQ(globe.drawsFarTile(), isBlended);
         EXPECT_TRUE(globe.draws(*file, RidgeGlobe::alongRow())) << isBlended;
     }
@@ -61,7 +61,7 @@ TEST(Evidence, IsMissingWhereOsgCullsClusters) {
         CullView view = RidgeGlobe::alongRow();
         view.cullingMode |= osg::CullSettings::CLUSTER_CULLING;
         for (const bool isKept : {false, true}) {
-            CullOptions options = withOcclusion();
+            CullOptions options = optionsOf("occlusion=on");
             options.cluster = isKept ? ClusterUse::Keep : ClusterUse::Replace;
             installBins(*globe.root, options);
             EXPECT_EQ(globe.draws(*globe.row[2], view), !isKept) << depth;
@@ -236,7 +236,7 @@ TEST(SpheresOfMeshes, MayBeElsewhereBecauseOfAPart) {
 
 // A camera whose near and far planes OSG computes, with a scene of a globe and something beside it.
 struct ComputedPlanes {
-    explicit ComputedPlanes(const CullOptions& options = withOcclusion()) {
+    explicit ComputedPlanes(const CullOptions& options = optionsOf("occlusion=on")) {
         scene->addChild(globe.root);
         globe.scene = scene;
         computeNear(view, *scene);
@@ -305,7 +305,7 @@ TEST(ComputedNear, IsAsFarAsWhatIsBesideTheTilesOfTheDatabase) {
         }
         planes.scene->replaceChild(planes.globe.root, root);
         planes.globe.root = root;
-        installBins(*root, withOcclusion());
+        installBins(*root, optionsOf("occlusion=on"));
         if (!isTerrain) root->addCullCallback(new osg::NodeCallback);
         EXPECT_TRUE(planes.hidesFarTile()) << isTerrain;
         root->addChild(planes.drawableAhead(1e10));

@@ -22,7 +22,7 @@ osg::ref_ptr<osg::MatrixTransform> askingModel(const osg::Vec3d& at) {
 
 // The ridge's globe, and a model beside the database that comes after it.
 struct ModelsOnGlobe : RidgeGlobe {
-    explicit ModelsOnGlobe(const CullOptions& options = withOcclusion()) {
+    explicit ModelsOnGlobe(const CullOptions& options = optionsOf("occlusion=on")) {
         scene = makeGroup({root});
         installBins(*root, options);
     }

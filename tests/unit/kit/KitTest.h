@@ -28,7 +28,7 @@
 #include <osgTerrain/ValidDataOperator>
 
 #include <chrono>
+#include <support/AnyScene.h>
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
-#include <support/VisitNodes.h>
 #include <thread>

@@ -56,7 +56,7 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
 // No view waits for a search, and never two in succession are drawn without one.
 TEST(TerrainOcclusion, IsSearchedForBesideTheDrawingIfLeftToItself) {
     RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
+    installBins(*globe.root, optionsOf("occlusion=auto"));
     for (int i = 0; i < 20 && globe.drawsFarTile(); ++i) update(*globe.root);
     const auto turned = [](double north) {
         return CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1 + north, 1.0, 1000.0), {1, 0, 0}, 30.0);

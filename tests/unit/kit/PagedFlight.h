@@ -16,7 +16,7 @@
 #include <chrono>
 #include <map>
 #include <mutex>
-#include <support/VisitNodes.h>
+#include <support/AnyScene.h>
 #include <thread>
 
 namespace osgAnalyticBin::test {

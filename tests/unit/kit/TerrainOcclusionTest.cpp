@@ -64,7 +64,7 @@ TEST(TerrainOcclusion, HidesAMeshByTheHeightOfEachPart) {
             far.setChild(0, mesh);
             far.setRange(0, 0.0f, 1e10f);
             far.setRange(1, 0.0f, 0.0f);
-            installBins(*globe.root, withOcclusion());
+            installBins(*globe.root, optionsOf("occlusion=on"));
             EXPECT_EQ(globe.drawsFarTile(), height > 3500.0) << "part " << part;
         }
     }
@@ -77,7 +77,7 @@ TEST(TerrainOcclusion, HidesNoMeshByItsOwnHeightWhereMoreIsAdded) {
     const osg::ref_ptr<osg::MatrixTransform> leaf = makeMeshTile(extents, 0.0);
     setStoredBin(*leaf, AnalyticBin(extents.withAltitude({-12000.0, 9000.0}), 10.0));
     globe.root->replaceChild(globe.row[4], leaf);
-    installBins(*globe.root, withOcclusion());
+    installBins(*globe.root, optionsOf("occlusion=on"));
     EXPECT_FALSE(globe.draws(*leaf, RidgeGlobe::alongRow()));
     const osg::ref_ptr<osg::MatrixTransform> tower = makeTower(ecefDeg(0.1, 0.9, 0.0), 8500.0f);
     tower->setMatrix(tower->getMatrix() * osg::Matrixd::inverse(leaf->getMatrix()));
@@ -122,7 +122,7 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
 
 TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
     RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
+    installBins(*globe.root, optionsOf("occlusion=auto"));
     // plates are made in the updates after a view that could use them
     int awaited = 0;
     for (; awaited < 20 && globe.drawsFarTile(); ++awaited) update(*globe.root);
@@ -142,7 +142,7 @@ TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
 // Nor are tiles prepared for it, which takes as long as reading them.
 TEST(TerrainOcclusion, IsNotLookedForFromHighAboveIfLeftToItself) {
     RidgeGlobe globe;
-    installBins(*globe.root, withOcclusion(OcclusionUse::Auto));
+    installBins(*globe.root, optionsOf("occlusion=auto"));
     const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 5e6), ecefDeg(0.1, 50.0, 0.0), {1, 0, 0}, 30.0);
     (void)globe.drawsFarTile(high);
     EXPECT_STREQ(BinStatistics::of(*globe.visitor).notCovered(), "an eye that is not high above the terrain");
@@ -163,7 +163,7 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     // through a plain that is cut away, the eye sees past the foot of the ridge into a pit
     RidgeGlobe pit;
     pit.row[4]->replaceChild(pit.row[4]->getChild(0), makeMeshTile(extentsDeg(0, 0.2, 0.8, 1.0), -15000.0));
-    installBins(*pit.root, withOcclusion());
+    installBins(*pit.root, optionsOf("occlusion=on"));
     CullView cutting = RidgeGlobe::alongRow();
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 500.0, 1e8);
     EXPECT_FALSE(pit.drawsFarTile(cutting));
@@ -227,7 +227,7 @@ TEST(TerrainOcclusion, FindsTheGroundBelowTheEyeInMeshesOfDoubles) {
         for (const osg::Vec3& vertex : static_cast<const osg::Vec3Array&>(*geometry.getVertexArray()))
             doubles->push_back(osg::Vec3d(vertex) + up);
         geometry.setVertexArray(doubles);
-        installBins(*globe.root, withOcclusion());
+        installBins(*globe.root, optionsOf("occlusion=on"));
         EXPECT_EQ(globe.drawsFarTile(), height > 0.0);
     }
 }
@@ -263,7 +263,7 @@ struct TerrainGlobe {
 
 TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves) {
     TerrainGlobe globe;
-    installBins(*globe.terrain, withOcclusion(OcclusionUse::Auto));
+    installBins(*globe.terrain, optionsOf("occlusion=auto"));
     int awaited = 0;
     for (; awaited < 100 && globe.drawsFarTile(); ++awaited) continue;
     EXPECT_GE(awaited, 1);
@@ -276,7 +276,7 @@ TEST(OccludingTerrainTiles, OfATechniqueThatIsVouchedForAreTheHorizonAlone) {
     struct OtherTechnique : osgTerrain::GeometryTechnique {};
     TerrainGlobe globe;
     globe.terrain->setTerrainTechniquePrototype(new OtherTechnique);
-    CullOptions options = withOcclusion(OcclusionUse::On);
+    CullOptions options = optionsOf("occlusion=on");
     installBins(*globe.terrain, options);
     const auto hiddenFrom = [&](double longitude, double altitude) {
         const auto view = CullView::lookAt(ecefDeg(0.107, longitude, altitude), ecefDeg(0.107, longitude + 0.1, 0.0),

@@ -13,10 +13,10 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
+#include <support/AnyScene.h>
 #include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
-#include <support/VisitNodes.h>
 
 namespace osgAnalyticBin {
 namespace {

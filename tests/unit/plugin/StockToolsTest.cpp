@@ -9,7 +9,7 @@
 
 #include <osgDB/ReadFile>
 
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 

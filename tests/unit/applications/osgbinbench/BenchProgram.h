@@ -4,7 +4,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {

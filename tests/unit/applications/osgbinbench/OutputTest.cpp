@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::bench {

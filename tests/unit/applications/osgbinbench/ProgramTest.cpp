@@ -7,7 +7,7 @@
 #include "BenchProgram.h"
 
 #include <PlanarMap.h>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin {

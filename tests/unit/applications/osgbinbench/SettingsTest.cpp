@@ -10,7 +10,7 @@
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <algorithm>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 
 namespace osgAnalyticBin::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <DatabaseFixture.h>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 

@@ -12,7 +12,7 @@
 
 #include <TileFixture.h>
 #include <map>
-#include <support/VisitNodes.h>
+#include <support/AnyScene.h>
 #include <tuple>
 
 namespace {

@@ -9,7 +9,7 @@
 #include "LoadedDatabase.h"
 #include "RasterFile.h"
 
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 using osgAnalyticBin::test::Files;

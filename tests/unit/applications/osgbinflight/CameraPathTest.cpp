@@ -7,7 +7,7 @@
 #include "CameraView.h"
 
 #include <cmath>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::flight {

@@ -9,7 +9,7 @@
 #include <osg/Image>
 #include <osgDB/WriteFile>
 
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 

@@ -3,7 +3,7 @@
 //
 // What osgbinviewer says when it cannot show a database: one line, and an exit code. No display is needed.
 
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {

@@ -13,7 +13,7 @@
 #include <Tile.h>
 #include <TileFixture.h>
 #include <algorithm>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::globe {

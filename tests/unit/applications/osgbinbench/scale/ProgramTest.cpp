@@ -10,7 +10,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 
 namespace osgAnalyticBin {
 namespace {

@@ -14,7 +14,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <memory>
-#include <support/FailureText.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::paper {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
+//
+// What tests do with any scene.
 
 #pragma once
 
-#include <osg/Node>
+#include <osg/NodeVisitor>
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
@@ -21,6 +23,24 @@ namespace osgAnalyticBin::test {
     std::stringstream stream;
     if (!plugin->writeNode(scene, stream, options).success()) return nullptr;
     return plugin->readNode(stream, options).takeNode();
+}
+
+/// Calls `visit(osg::Node&)` with a node and all below it, drawables too, a node before what it holds.
+template <class Visit>
+void visitNodes(osg::Node& scene, const Visit& visit) {
+    class Visitor : public osg::NodeVisitor {
+    public:
+        explicit Visitor(const Visit& visit) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _visit(visit) {}
+        void apply(osg::Node& node) override {
+            _visit(node);
+            traverse(node);
+        }
+
+    private:
+        const Visit& _visit;
+    };
+    Visitor visitor(visit);
+    scene.accept(visitor);
 }
 
 }  // namespace osgAnalyticBin::test

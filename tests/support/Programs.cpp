@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <support/StockPrograms.h>
+#include <support/Programs.h>
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>
 
