@@ -606,8 +606,6 @@ FAULTS = [
           "std::sqrt(1.0 + at * at) + eyes + size", "std::sqrt(1.0 + at * at) + 0.5 * eyes + size", CORE, "SortedEarth.*"),
     Fault("models: balls beside the cone of the horizon", "src/core/horizon/Horizon.cpp",
           "- _data.sinDip * across >= room)", "- _data.sinDip * across >= 0.0)", CORE, "Horizon.*"),
-    Fault("models: balls before the plane of the horizon", "src/core/horizon/Horizon.cpp",
-          "along + room <= _data.cosDip", "along - room <= _data.cosDip", CORE, "Horizon.*"),
     Fault("models: balls are as far as their middle", "src/core/horizon/Horizon.cpp",
           "* kDown - room;", "* kDown;", CORE, "Horizon.*"),
     Fault("models: pictures of other cameras", "src/kit/cull/HidingView.cpp",

@@ -112,7 +112,7 @@ TEST(Horizon, SeesBinsOfWhichACornerIsJustInSight) {
     }
 }
 
-TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
+TEST(Horizon, SeesBinsAndBallsOfWhichALineOfSightJustMisses) {
     Random random(311);
     int seen = 0;
     for (int trial = 0; trial < 200000; ++trial) {
@@ -121,6 +121,7 @@ TEST(Horizon, SeesBallsOfWhichALineOfSightJustMisses) {
         const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
         if (!prepared) continue;
         ++seen;
+        ASSERT_FALSE(prepared->hides(HorizonBin(line.ellipsoid, line.bin, line.margin))) << "trial " << trial;
         const double radius = random.logUniform(1e-3, 1e5);
         const glm::dvec3 centre = rounded(line.target) + random.uniform(0.0, radius) * random.direction();
         ASSERT_FALSE(prepared->shareBefore(line.ellipsoid, centre, radius + 1e-6) < 1.0) << "trial " << trial;
@@ -233,8 +234,9 @@ TEST(Horizon, MarginHidesLess) {
     int changed = 0;
     for (int trial = 0; trial < 100000; ++trial) {
         const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
-        const glm::dvec3 eye = onWgs84(random.uniform(-90.0, 90.0), random.uniform(-180.0, 180.0), 1e5);
-        const double margin = random.logUniform(1e-3, 1e5);
+        const glm::dvec3 eye =
+            onWgs84(random.uniform(-90.0, 90.0), random.uniform(-180.0, 180.0), random.logUniform(1e5, 1e9));
+        const double margin = random.logUniform(1e-3, 1e7);
         const bool bare = hides(eye, bin), grown = hides(eye, bin, kDepth, margin);
         ASSERT_TRUE(bare || !grown);
         changed += bare != grown ? 1 : 0;

@@ -170,13 +170,11 @@ double HorizonEye::shareBefore(const Ellipsoid& ellipsoid, const glm::dvec3& cen
     const double along = glm::dot(at, direction);
     const double rounding = 64.0 * kEpsilon * (1.0 + std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
     const double room = radius / (smallerRadius(ellipsoid) * _data.scale) + rounding;
-    // Behind the plane of the horizon, and within the cone that touches the occluder there. Written so that NaN is in
-    // sight.
-    if (!(along + room <= _data.cosDip)) return HUGE_VAL;
+    // Within the cone that touches the occluder at the horizon. Written so that NaN is in sight.
     const double across = glm::length(at - along * direction);
     if (!(1.0 - _data.cosDip * along - _data.sinDip * across >= room)) return HUGE_VAL;
     const double nearest = glm::length(at - direction / _data.cosDip) * kDown - room;
-    return _data.sinDip / _data.cosDip * kUp / nearest;
+    return nearest > 0.0 ? _data.sinDip / _data.cosDip * kUp / nearest : HUGE_VAL;
 }
 
 }  // namespace osgAnalyticBin::core
