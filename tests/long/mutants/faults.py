@@ -12,7 +12,7 @@ PACKED = "osgbinpackedtest"
 PLUGIN = "osganalyticbin_plugin_tests"
 SCENES = "osganalyticbin_scenes"
 NAMED = "../source/tests/scenes"  # the named scenes, from the folder of the build
-RANDOM = "--scenes 500 --failures 1 --no-shrink"
+RANDOM = "--scenes 500 --no-shrink"
 
 
 @dataclass(frozen=True)

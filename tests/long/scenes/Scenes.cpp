@@ -133,8 +133,9 @@ std::string wrongWith(const std::string& file, bool describes, Painter* painter)
 
 int runFiles(const Arguments& arguments, Painter* painter) {
     const std::vector<std::string> files = sceneFiles(arguments.files);
-    int failures = 0;
+    std::uint64_t failures = 0;
     for (const std::string& file : files) {
+        if (failures == arguments.mostFailures) break;
         std::snprintf(presentScene, sizeof presentScene, "%s\n", std::filesystem::path(file).stem().c_str());
         std::string wrong;
         try {
@@ -146,7 +147,7 @@ int runFiles(const Arguments& arguments, Painter* painter) {
         std::printf("%s FAILS in %s\n", file.c_str(), wrong.c_str());
         ++failures;
     }
-    std::printf("%zu named scenes, %d failures\n", files.size(), failures);
+    std::printf("%zu named scenes, %llu failures\n", files.size(), static_cast<unsigned long long>(failures));
     return failures == 0 && !files.empty() ? 0 : 1;
 }
 
