@@ -4,7 +4,6 @@
 // osgbindem's command line, an argument per line up to a line that is empty, and then a small raster of any type, place
 // and shape, which is read as the arguments say: refused with one line, or settings in range and finite heights.
 
-#include "Bytes.h"
 #include "Fuzz.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>

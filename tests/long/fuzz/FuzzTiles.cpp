@@ -5,7 +5,6 @@
 // and views of it: whatever its files hold, it is read, paged, updated and culled. That nothing is culled that is seen:
 // tests/long/scenes.
 
-#include "Bytes.h"
 #include "Fuzz.h"
 
 #include <osgAnalyticBin/InstallBins.h>

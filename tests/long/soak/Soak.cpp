@@ -5,7 +5,6 @@
 // change; fails when memory grows, when a tile is lost, or when something hangs. See tests/README.md.
 
 #include "Flight.h"
-#include "PagedScenes.h"
 
 #include <osg/ArgumentParser>
 

@@ -6,7 +6,6 @@
 // tiles that never come. Needs a display; skipped where no graphics context can be made.
 
 #include "Handlers.h"
-#include "PagedScenes.h"
 #include "ViewerRig.h"
 
 #include <osgAnalyticBin/InstallBins.h>

@@ -30,8 +30,10 @@ namespace osgAnalyticBin::test {
 struct CullView {
     osg::Matrixd modelView;
     osg::Matrixd projection;
-    osg::ref_ptr<osg::Camera> camera;    // what the render stage says it draws for; may be null
-    osg::ref_ptr<osg::StateSet> states;  // above the scene; may be null; the viewport is added to them
+    osg::ref_ptr<osg::Camera> camera;              // what the render stage says it draws for; may be null
+    osg::ref_ptr<osg::StateSet> states;            // above the scene; may be null; the viewport is added to them
+    osg::ref_ptr<osgUtil::RenderStage> sameStage;  // that is used in each traversal; null: another one
+    osg::ref_ptr<osg::RefMatrix> sameProjection;   // the same of the object with the matrix
     osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
     osg::CullSettings::ComputeNearFarMode computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
 
@@ -127,7 +129,8 @@ inline CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisi
     stamp->setFrameNumber(frame);
     stamp->setReferenceTime(time);
     const osg::ref_ptr<osgUtil::StateGraph> stateGraph = new osgUtil::StateGraph;
-    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    const auto stage = view.sameStage ? view.sameStage : osg::ref_ptr(new osgUtil::RenderStage);
+    stage->reset();
     stage->setViewport(viewport.get());
     stage->setCamera(view.camera.get());
 
@@ -141,7 +144,8 @@ inline CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisi
     if (view.cullingMode & osg::CullSettings::SHADOW_OCCLUSION_CULLING)
         collectOccluders(scene, view, viewport.get(), visitor);
     visitor.pushViewport(viewport.get());
-    const osg::ref_ptr<osg::RefMatrix> projection = new osg::RefMatrix(view.projection);
+    const auto projection =
+        view.sameProjection ? view.sameProjection : osg::ref_ptr(new osg::RefMatrix(view.projection));
     visitor.pushProjectionMatrix(projection.get());
     visitor.pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
     if (view.states) {

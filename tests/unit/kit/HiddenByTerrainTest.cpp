@@ -56,6 +56,17 @@ TEST(HiddenByTerrain, NeedsADepthTestInViews) {
     EXPECT_FALSE(globe.drawsAlongRow(*behind));
 }
 
+// An application may have the same objects for each frame. What hid in the last one may be gone.
+TEST(HiddenByTerrain, IsNotAskedByThePictureOfAnotherFrame) {
+    ModelsOnGlobe globe;
+    const auto behind = askingModel(kBehindRidge);
+    globe.scene->insertChild(0, behind);
+    CullView view = RidgeGlobe::alongRow();
+    view.sameStage = new osgUtil::RenderStage;
+    view.sameProjection = new osg::RefMatrix(view.projection);
+    globe.expectDrawn(*behind, view);
+}
+
 // The visitor of one frame sees from somewhere else in the next, and in another pass of the same one.
 TEST(HiddenByTerrain, DrawsWhatComesBeforeTheDatabaseAndForgetsOtherViews) {
     ModelsOnGlobe globe;

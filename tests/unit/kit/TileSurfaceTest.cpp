@@ -138,6 +138,7 @@ struct OwnLayer : osgTerrain::HeightFieldLayer {
         setLocator(other.getLocator());
     }
 };
+struct OwnTechnique : osgTerrain::GeometryTechnique {};
 
 // Classes of the application's may place what they like, and have any heights.
 TEST(TileSurface, IsUnknownWhereTheTileIsBroken) {
@@ -151,6 +152,7 @@ TEST(TileSurface, IsUnknownWhereTheTileIsBroken) {
         [](auto&, auto& layer) { layer.getLocator()->setTransform(osg::Matrixd::rotate(0.5, 0, 0, 1)); },
         [](auto&, auto& layer) { layer.getLocator()->setTransformAsExtents(0, 0, 90, 45); },  // degrees
         [](auto&, auto& layer) { layer.setLocator(new OwnLocator(*layer.getLocator())); },
+        [](auto& tile, auto&) { tile.setTerrainTechnique(new OwnTechnique); },
         [](auto& tile, auto& layer) { tile.setElevationLayer(new OwnLayer(layer)); }};
     for (std::size_t i = 0; i < std::size(breaks); ++i) {
         const auto tile = makePlainTile();
