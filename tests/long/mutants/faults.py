@@ -228,7 +228,7 @@ FAULTS = [
           "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
           "(void)&distanceTo;", NODE, "Projections*"),
     Fault("skirts are not in the bin", "src/kit/cull/AnalyticBinCullCallback.cpp", ".withSkirts(_skirt)", "",
-          NODE, "*Skirt*:*Surface*"),
+          SCENES, f"{NAMED}/added-levels.scene"),
     Fault("skirts hang straight below their tile", "src/kit/surface/SurfaceReading.cpp",
           "result.bin.expandBy(AnalyticBin(", "AnalyticBin(result.bin).expandBy(AnalyticBin(", NODE, "TileSurface.TellsSkirts*"),
     Fault("skirts grow with the vertical scale", "src/kit/AnalyticBin.cpp", "result._sag += metres;", "", NODE,
