@@ -20,8 +20,6 @@ GeodeticBin randomExtentsInMap(Random& random) {
 
 GeodeticBin randomExtents(Random& random, const Ellipsoid& ellipsoid) {
     if (ellipsoid.isPlane()) return randomExtentsInMap(random);
-    // where sides along parallels bulge far, beside steep slopes
-    if (random.chance(0.1)) return GeodeticBin({1.25, 1.35}, {0.0, 1.2}, {-0.05 * ellipsoid.polarRadius(), 0.0});
     const double size = random.logUniform(1e-6, 0.3);
     const double south = random.uniform(-1.5, 1.5 - size);
     const double west = random.chance(0.2) ? 3.14159 - 0.5 * size : random.uniform(-3.2, 3.2);

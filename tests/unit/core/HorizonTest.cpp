@@ -242,6 +242,8 @@ TEST(Horizon, MarginHidesLess) {
         changed += bare != grown ? 1 : 0;
     }
     EXPECT_GT(changed, 100);
+    // it reaches around the globe
+    EXPECT_FALSE(hides(onWgs84(0.0, 0.0, 1e9), square(0.0, 179.5, 1.0, {5e6, 5e6}), kDepth, 8e6));
 }
 
 using core::CoveredRegion;
