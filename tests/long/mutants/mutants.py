@@ -160,7 +160,8 @@ def main():
                         help="scratch folder for the copy and its build (default build/mutants)")
     parser.add_argument("--only", default="", help="the faults alone whose name or file has this")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="copies tried at once (default: one per core)")
-    parser.add_argument("--after", type=pathlib.Path, help="what an earlier run of the same sources printed: leaves out what was noticed then, and the tests without faults")
+    parser.add_argument("--after", type=pathlib.Path, help="what an earlier run of the same sources printed: leaves out "
+                        "what was noticed then, and the tests without faults")
     parser.add_argument("--list", action="store_true", help="name the faults, and do nothing")
     arguments = parser.parse_args()
     faults = [fault for fault in FAULTS if arguments.only in fault.name or arguments.only in fault.file]
@@ -191,7 +192,8 @@ def main():
             return 1
         if not all(pool.map(lambda scratch: built(scratch, targets, 1), copies[1:])):
             return 1
-        print(f"{len(faults)} faults; without them all tests pass ({time.monotonic() - begin:.0f} s)", flush=True)
+        sound = "" if arguments.after else "; without them all tests pass"
+        print(f"{len(faults)} faults{sound} ({time.monotonic() - begin:.0f} s)", flush=True)
         bad = sum(pool.map(lambda scratch: try_all(waiting, scratch), copies))
     print(f"{len(faults) - bad} of {len(faults)} noticed in {time.monotonic() - begin:.0f} s")
     return 1 if bad else 0
