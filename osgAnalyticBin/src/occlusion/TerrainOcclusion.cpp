@@ -344,10 +344,10 @@ private:
         _found->lastAcross = span.value_or(_found->span).across;
     }
 
-    // Starts the search beside the drawing of this view, in which nothing is hidden, for the next one: where a camera
-    // turns faster than before, or clipping planes change, that costs less than to wait. Not twice in succession, and
-    // not after a jump: a picture that stands alone is searched for at once. `spanThen`: as for servedAhead(). Returns:
-    // whether it did.
+    // Starts a search in the thread for the next view; this view hides nothing. Where a camera turns faster than
+    // before, or clipping planes change, that costs less than to wait. It does not do so twice in succession, nor after
+    // a jump, because a picture that stands alone has to be searched for at once. `spanThen`: as for servedAhead().
+    // Returns: whether it did.
     [[nodiscard]] bool leaveToNextView(const View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
                                        const std::optional<PictureSpan>& spanThen) {
         if (!_isLeftToNext && spanThen) searchAhead(view, lines, shown, spanThen, 1);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// A database of hostile files as no builder makes them, written and read by OSG, with bins installed as for the pager,
-// and views of it: whatever its files hold, it is read, paged, updated and culled. That nothing is culled that is seen:
-// tests/long/scenes.
+// A database of hostile files that no builder makes. OSG writes and reads them, bins are installed as for the pager,
+// and the database is paged, updated and culled. tests/long/scenes looks whether something visible is culled.
 
 #include "Fuzz.h"
 

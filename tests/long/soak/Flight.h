@@ -80,7 +80,7 @@ public:
         return found.size();
     }
 
-    /// Of all that were ever noted, the classes of those that are alive.
+    /// The classes of all noted callbacks that are still alive.
     [[nodiscard]] std::multiset<std::string> alive() {
         std::multiset<std::string> classes;
         for (auto entry = _known.begin(); entry != _known.end();) {

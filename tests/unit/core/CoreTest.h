@@ -84,7 +84,7 @@ inline bool holds(const Interval& range, const RealRange& truth, Real rounding) 
     return range.lower <= truth.lower + rounding && range.upper >= truth.upper - rounding;
 }
 
-/// Planes most of which touch or nearly touch one of the bins: any number, now and then with what is no number.
+/// Any number of planes. Most of them touch one of the bins, or nearly; some have NaN or infinity in place of a number.
 inline void addRandomPlanes(Random& random, const std::vector<BinOracle>& oracles, PlaneSet& planes) {
     constexpr std::array<double, 4> kNoNumbers{kNaN, kInfinity, -kInfinity, std::numeric_limits<double>::max()};
     const int count = random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));

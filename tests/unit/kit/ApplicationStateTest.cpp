@@ -57,7 +57,6 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesAMeshAway) {
     }
 }
 
-// Where OSG chooses by pixels the kit does not know what it will choose, but it knows whether there is a choice.
 // A tile below the eye is divided into four, one of these again, and so on: the last one is 600 m wide.
 TEST(HoledGlobe, IsSeenThroughWhereOneOfItsSmallestTilesIsMissing) {
     for (const bool hasHole : {false, true}) {

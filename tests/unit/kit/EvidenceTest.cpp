@@ -321,7 +321,7 @@ TEST(ComputedNear, DoesNotDependOnWhatOsgDoesNotEnter) {
     for (int i = 0; i < 2000; ++i) stranger->addChild(planes.drawableAhead(-1e5));
     planes.scene->addChild(makeGroup({stranger}));
     EXPECT_TRUE(planes.hidesFarTile());
-    // the class may move before its sphere is tested
+    // a node of this class may move before OSG tests its sphere
     planes.scene->addChild(stranger);
     EXPECT_FALSE(planes.hidesFarTile());
     planes.scene->removeChild(stranger);

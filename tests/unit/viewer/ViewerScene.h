@@ -30,7 +30,7 @@ public:
         _stamp->setFrameNumber(1);
     }
 
-    /// Looks from a place straight down or, with `pitchDeg`, so much above that towards north.
+    /// Looks straight down from a place or, with `pitchDeg`, to the north, so many degrees above straight down.
     void lookFrom(double latitudeDeg, double longitudeDeg, double altitude, double pitchDeg, double fovDeg) {
         osg::Matrixd toWorld;
         osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(

@@ -93,8 +93,8 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     return isCulled;
 }
 
-/// Whether osgUtil::CullVisitor only tests the sphere of a node, and it is out of view. Nodes of other classes may
-/// change before that, as osg::AutoTransform does.
+/// Whether the sphere of a node is out of view, and osgUtil::CullVisitor tests it before it does anything else with the
+/// node. Nodes of other classes may change before that, as osg::AutoTransform does.
 [[nodiscard]] inline bool isLeftOutAtOnce(osg::CullingSet& cullingSet, core::PlaneMask undecided,
                                           const osg::Node& node) {
     return isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform, osg::Group, osg::Geode, osg::LOD>(node) &&

@@ -18,9 +18,9 @@
 
 namespace osgAnalyticBin {
 
-/// Calls `visit` for the children of a group that OSG may enter, until it returns false: of levels of detail for those
-/// that are due by their distance, or within rounding of it, and for the one that stands in for a level that is
-/// awaited. `toEye`: from inside the group. Returns: whether it returned true for all.
+/// Calls `visit` for the children of a group that OSG may enter, until it returns false. Of levels of detail these are
+/// the levels that are due at their distance, give or take its rounding, and the level that OSG shows while it waits
+/// for a file. `toEye`: from inside the group. Returns: whether `visit` returned true for all.
 template <class Visit>
 [[nodiscard]] bool forEachShown(osg::Group& group, const osg::Matrixd& toEye, const osgUtil::CullVisitor& visitor,
                                 const Visit& visit) {
@@ -43,6 +43,7 @@ template <class Visit>
     bool isOneAwaited = false;
     for (unsigned int i = 0; i < lod->getNumRanges(); ++i) {
         const double nearest = static_cast<double>(lod->getMinRange(i)), end = static_cast<double>(lod->getMaxRange(i));
+        // written so that NaN is in range
         if (distance + room < nearest || distance - room >= end) continue;
         isOneAwaited = isOneAwaited || i >= children;
         if (i < children && !visit(*group.getChild(i))) return false;

@@ -70,8 +70,8 @@ public:
 
     /// For balls, in ECEF and metres: how far the occluder is along a line of sight to a point of the ball, as a share
     /// of the way to the point. Requires: an eye, and not a viewing direction; its own ellipsoid.
-    /// Guarantee: where it is less than 1, no line of sight has a larger share, and each meets the occluder;
-    /// test: Horizon.SharesOfBallsAreUpperBounds. Source: doc/theory/horizon.md, section 12.
+    /// Guarantee: where it is less than 1, no line of sight has a larger share, and each meets the occluder; otherwise
+    /// one may not; test: Horizon.SharesOfBallsAreUpperBounds. Source: doc/theory/horizon.md, section 12.
     [[nodiscard]] double shareBefore(const Ellipsoid& ellipsoid, const glm::dvec3& centre,
                                      double radius) const noexcept;
 
