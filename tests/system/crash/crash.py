@@ -53,7 +53,10 @@ def require(holds, what):
 
 
 def run(command):
-    return subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    try:
+        return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    except subprocess.TimeoutExpired as late:
+        raise Failed(f"{late}; it said {late.stdout} {late.stderr}") from late
 
 
 def succeed(command):
