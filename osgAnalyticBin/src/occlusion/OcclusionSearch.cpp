@@ -350,7 +350,7 @@ bool areOverOneAnother(const GeodeticBin& a, const GeodeticBin& b) {
 }  // namespace
 
 bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
-    std::optional<Change> change = tiles == shown ? Change() : match(view, ellipsoid, meshOf);
+    std::optional<Change> change = tiles == shown ? Change() : match(ellipsoid, meshOf);
     if (!change) return false;
     const auto isOverOneThatCame = [&](const Left& left) {
         const auto isOver = [&](const GeodeticBin& bin) { return areOverOneAnother(bin, left.bin); };
@@ -369,8 +369,7 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
     return true;
 }
 
-std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::PlaneSet& view,
-                                                            const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
+std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
     // each tile that has come, or left the view, costs a look at all others
     constexpr std::size_t kMostLeft = 16;
     const core::InverseFrame frame(eye);
@@ -388,9 +387,8 @@ std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::PlaneSet
     const auto passUntil = [&](std::size_t end) {
         for (; next < end; ++next) {
             if (number[next] == kCame || findings[number[next]] != Finding::Seen) continue;
-            const auto quarters = quartersOf(tiles[next], ellipsoid);
-            if (leftView.size() < kMostLeft && isOutOfView(quarters, view)) {
-                leftView.push_back({number[next], tiles[next].bin, quarters});
+            if (leftView.size() < kMostLeft) {
+                leftView.push_back({number[next], tiles[next].bin, quartersOf(tiles[next], ellipsoid)});
             } else {
                 change.lost.push_back(number[next]);
             }

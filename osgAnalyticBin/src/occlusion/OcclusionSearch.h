@@ -126,8 +126,7 @@ private:
         double top = -std::numeric_limits<double>::infinity();  // of what the near plane may cut of others
     };
     // Takes over the tiles that are shown now. Returns: nullopt where the result does not hold with them.
-    [[nodiscard]] std::optional<Change> match(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid,
-                                              const MeshOf& meshOf);
+    [[nodiscard]] std::optional<Change> match(const core::Ellipsoid& ellipsoid, const MeshOf& meshOf);
     void forget(const std::vector<std::uint32_t>& numbers);
 };
 
