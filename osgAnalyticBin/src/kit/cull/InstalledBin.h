@@ -19,12 +19,6 @@ namespace osgAnalyticBin {
     return bin ? bin->getInstalledTile() : nullptr;
 }
 
-/// Whether the node has a callback that an installer made, in this scene or before it was saved.
-[[nodiscard]] inline bool hasInstalledBin(const osg::Node& node) {
-    const auto* const bin = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
-    return bin && bin->isInstalled();
-}
-
 /// The callback of a bin that an installer made for this very node. Returns: nullptr when there is none.
 /// Not inlined: deeply nested scenes need the stack.
 [[nodiscard, gnu::noinline]] inline const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {

@@ -211,7 +211,7 @@ protected:
         if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
         if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
         // it may have been a tile when bins were last installed
-        if (hasInstalledBin(node) && !dynamic_cast<Carrier*>(&node))
+        if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node))
             removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
         // some groups compute their bounds without their children
         const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();

@@ -148,7 +148,9 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
 
 void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
     forEachNode(subgraph, [&nested](osg::Node& node) {
-        if (hasInstalledBin(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
+        const auto* const bin = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
+        // in this scene or before it was saved
+        if (bin && bin->isInstalled()) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
         takeOffFirst<NoCulling>(node);
         removeFromLod(node);
