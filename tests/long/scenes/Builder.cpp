@@ -3,8 +3,6 @@
 
 #include "Builder.h"
 
-#include "Callbacks.h"
-#include "Meshes.h"
 #include "Painter.h"
 #include "Parts.h"
 

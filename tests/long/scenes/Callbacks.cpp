@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Callbacks.h"
-
 #include "Parts.h"
-#include "States.h"
 
 #include <osgAnalyticBin/Declarations.h>
 

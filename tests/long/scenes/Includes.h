@@ -9,6 +9,7 @@
 
 #include <osg/ArgumentParser>
 #include <osg/Billboard>
+#include <osg/Depth>
 #include <osg/Drawable>
 #include <osg/Geode>
 #include <osg/Image>

@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Meshes.h"
-
-#include "Callbacks.h"
-#include "States.h"
+#include "Parts.h"
 
 #include <osg/PrimitiveSetIndirect>
 #include <osgTerrain/Locator>

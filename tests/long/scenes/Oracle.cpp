@@ -123,7 +123,8 @@ std::optional<FalseCull> findVisiblePoint(const std::string& key, const Delivere
     for (const osg::Vec3d& sample : samplesOf(triangles, lost.isFilled)) {
         const auto sight = projector.sightTo(sample);
         const bool isInPicture = sight && (!counts.onlyBetweenGivenPlanes || given.sightTo(sample));
-        if (isInPicture && !picture.isHidden(*sight)) return FalseCull{key, sample, sight->inPicture};
+        if (isInPicture && (lost.ignoresDepth || !picture.isHidden(*sight)))
+            return FalseCull{key, sample, sight->inPicture};
     }
     return std::nullopt;
 }

@@ -3,10 +3,6 @@
 
 #include "Parts.h"
 
-#include "Callbacks.h"
-#include "Meshes.h"
-#include "States.h"
-
 #include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
 #include <osgTerrain/GeometryTechnique>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Meshes.h"
+#include "Parts.h"
 #include "RandomScene.h"
-#include "States.h"
 
 #include <osg/StateAttribute>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Meshes.h"
+#include "Parts.h"
 #include "RandomScene.h"
 
 namespace osgAnalyticBin::test {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "Painter.h"
-#include "States.h"
+#include "Parts.h"
 
 namespace osgAnalyticBin::test {
 
@@ -19,6 +19,7 @@ struct Delivered {
     osg::Matrixd givenProjection;                   ///< before
     bool isFilled = true;                           ///< whether its polygons are
     bool isPlain = true;                            ///< whether it is drawn where it is, and hides what is behind
+    bool ignoresDepth = false;                      ///< nothing hides it
     bool isCountedCulled = false;                   ///< whether a bin on it was counted as culled all the same
 };
 
@@ -76,7 +77,7 @@ public:
         osgUtil::CullVisitor::apply(drawable);
         if (_painter) popStateSet();
         if (_currentReuseRenderLeafIndex == before) return;
-        deliver(std::move(key), drawable, *getModelViewMatrix(), found.isPlain,
+        deliver(std::move(key), drawable, *getModelViewMatrix(), found,
                 hasCallback && culledBins(*this) != culledBefore);
     }
 
@@ -91,7 +92,7 @@ public:
             // the others belong to another node or to an earlier frame
             if (!leaf->getDrawable() || leaf->_traversalOrderNumber < before || !node.containsNode(leaf->getDrawable()))
                 continue;
-            deliver(newKey(), *leaf->getDrawable(), *leaf->_modelview, found.isPlain, false);
+            deliver(newKey(), *leaf->getDrawable(), *leaf->_modelview, found, false);
         }
     }
 
@@ -117,15 +118,17 @@ private:
     struct States {
         bool isPlain = true;
         bool hasProgram = false;
+        bool ignoresDepth = false, obeysDepth = false;
     };
     [[nodiscard]] States states(const osg::StateSet* own) {
         States result;
-        if (!_painter) return result;
         result.isPlain = isViewPlain;
         const auto add = [&](const osg::StateSet* set) {
             if (!set) return;
             result.hasProgram = result.hasProgram || set->getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
             result.isPlain = result.isPlain && isHarmless(*set);
+            const auto* const depth = dynamic_cast<const osg::Depth*>(set->getAttribute(osg::StateAttribute::DEPTH));
+            (depth && depth->getFunction() == osg::Depth::ALWAYS ? result.ignoresDepth : result.obeysDepth) |= !!depth;
         };
         add(own);
         const osgUtil::StateGraph* graph = getCurrentStateGraph();
@@ -136,11 +139,14 @@ private:
         return result;
     }
 
-    void deliver(std::string key, const osg::Drawable& drawable, const osg::Matrixd& modelView, bool isPlain,
+    void deliver(std::string key, const osg::Drawable& drawable, const osg::Matrixd& modelView, const States& states,
                  bool isCountedCulled) {
-        Delivered delivered{
-            cameraText(getNodePath()), &drawable, modelView,      getProjectionMatrix(), *getProjectionMatrix(),
-            isFilled(getNodePath()),   isPlain,   isCountedCulled};
+        Delivered delivered{cameraText(getNodePath()), &drawable, modelView, getProjectionMatrix(),
+                            *getProjectionMatrix()};
+        delivered.isFilled = isFilled(getNodePath());
+        delivered.isPlain = states.isPlain;
+        delivered.ignoresDepth = states.ignoresDepth && !states.obeysDepth;
+        delivered.isCountedCulled = isCountedCulled;
         _delivery.drawables.emplace(std::move(key), std::move(delivered));
     }
 

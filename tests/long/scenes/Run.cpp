@@ -4,8 +4,6 @@
 #include "Run.h"
 
 #include "Builder.h"
-#include "Callbacks.h"
-#include "Meshes.h"
 #include "Parts.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>

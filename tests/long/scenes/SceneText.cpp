@@ -3,7 +3,7 @@
 
 #include "SceneText.h"
 
-#include "States.h"
+#include "Parts.h"
 
 #include <charconv>
 

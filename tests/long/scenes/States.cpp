@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "States.h"
-
 #include "Painter.h"
+#include "Parts.h"
 
 #include <osg/AlphaFunc>
 #include <osg/BlendColor>
@@ -14,7 +13,6 @@
 #include <osg/ClipPlane>
 #include <osg/ColorMask>
 #include <osg/CullFace>
-#include <osg/Depth>
 #include <osg/DepthRangeIndexed>
 #include <osg/Fog>
 #include <osg/FragmentProgram>
