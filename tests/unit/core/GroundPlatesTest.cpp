@@ -128,6 +128,28 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasFolds) {
     EXPECT_GT(folded, 200);
 }
 
+// A long side that ends just south of a cell bulges into it, and the triangle below is steep.
+TEST(GroundPlates, ColumnsLieBelowTrianglesThatBulgeTowardsThePole) {
+    Random random(1709);
+    const Ellipsoid earth = wgs84();
+    const double middle = 1.05, half = 0.008, rim = half / 256.0, west = 0.3, width = 0.032;
+    const GeodeticBin extents({middle - half, middle + half}, {west, west + width}, {0.0, 0.0});
+    EcefMesh mesh;
+    // the ends of the long side, then the southern and the northern rim
+    for (const double side : {0.0, 1.0}) addVertex(mesh, earth.toEcef({middle + 0.49 * rim, west + side * width, 0.0}));
+    for (const double end : {-half, half}) {
+        for (int i = 0; i <= 8; ++i)
+            addVertex(mesh, earth.toEcef({middle + end, west + i / 8.0 * width, end < 0.0 && i == 4 ? -5e4 : 0.0}));
+    }
+    for (std::uint32_t i = 0; i < 8; ++i)
+        mesh.triangles.insert(mesh.triangles.end(), {2 + i, 3 + i, i / 4, 12 + i, 11 + i, i / 4});
+    mesh.triangles.insert(mesh.triangles.end(), {1, 0, 6, 0, 1, 15});
+    const GroundPlates plates = platesOf(earth, mesh, extents);
+    int known = 0;
+    for (int trial = 0; trial < 50; ++trial) expectBelow(random, earth, mesh, plates, known);
+    EXPECT_GT(known, 50 * 30);
+}
+
 // A triangle that is missing, that is turned over, or that lies on another one in place of its own.
 TEST(GroundPlates, AreNotKnownWhereTheMeshHasAHole) {
     Random random(1703);

@@ -126,6 +126,42 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
     EXPECT_TRUE(globe.draws(*tower, beside(place)));
 }
 
+// A reader of the application's adds it, and the pager asks for the bound of what it has read.
+TEST(AddedContent, IsNoticedWhereAFileBringsIt) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::Group> file = readBelow(*globe.tile)->asGroup();
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    file->addChild(tower);
+    (void)file->getBound();
+    globe.tile->replaceChild(globe.group, file);
+    EXPECT_TRUE(globe.draws(*tower, beside(place)));
+}
+
+TEST(AddedContent, ThatIsShownInPlaceOfTheMeshLeavesAHole) {
+    MeshGlobe globe;
+    osg::PagedLOD& tile = *globe.tiles[19];
+    tile.setFileName(1, "");
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+    tile.addChild(makeTower(ecefDeg(22.5, -22.5, 100.0)), 0.0f, 1e10f);
+    tile.setRange(0, 1e10f, 2e10f);
+    globe.expectAntipode(true);
+}
+
+TEST(AddedContent, IsDrawnWhereTheApplicationHasTakenOffTheWatchOfATileWithoutSiblings) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::PagedLOD> leaf = makePaged(globe.group->getChild(0), "no.osgb");
+    globe.tile->setChild(1, leaf);
+    installBins(*globe.root);
+    ASSERT_NE(installedOn(*leaf), nullptr);
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    leaf->setComputeBoundingSphereCallback(nullptr);
+    leaf->addChild(tower, 0.0f, 1e10f);
+    globe.expectDrawn(*tower, beside(place));
+}
+
 // It keeps the tile and those above it, from the next view on.
 void expectNeverCulled(osg::Node& content, const std::function<bool(FiledGlobe&)>& shows) {
     for (const bool isWithin : {false, true}) {

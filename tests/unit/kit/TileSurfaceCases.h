@@ -53,7 +53,7 @@ struct VpbMesh {
     unsigned int posts = 17;
     double skirt = 5000.0;
     double low = -500.0, high = 3000.0;
-    bool areSkirtsGeocentric = false;  // they hang towards the centre of the globe
+    bool doSkirtsLean = false;  // by 1.6 degrees to the geocentric vertical
 };
 
 inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random,
@@ -67,12 +67,12 @@ inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& 
     const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
     const osg::ref_ptr<osg::DrawElementsUShort> triangles = gridTriangles<osg::DrawElementsUShort>(c.posts);
     const unsigned int n = c.posts;
-    const auto add = [&](unsigned int i, unsigned int j, double altitude, double towardsCentre = 0.0) {
+    const auto add = [&](unsigned int i, unsigned int j, double altitude, double leaning = 0.0) {
         const double u = static_cast<double>(i) / (n - 1);
         const double v = static_cast<double>(j) / (n - 1);
         glm::dvec3 ecef = ellipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
                                             c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
-        ecef -= towardsCentre * glm::normalize(ecef);
+        ecef -= leaning * glm::normalize(glm::normalize(ecef) + glm::dvec3(0.02, 0.02, 0.0));
         vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
         texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
     };
@@ -83,7 +83,7 @@ inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& 
     }
     const std::vector<unsigned int> border = gridBorder(n);
     for (const unsigned int post : border)
-        if (c.skirt > 0.0 && c.areSkirtsGeocentric)
+        if (c.skirt > 0.0 && c.doSkirtsLean)
             add(post % n, post / n, altitudes[post], c.skirt);
         else if (c.skirt > 0.0)
             add(post % n, post / n, altitudes[post] - c.skirt);
