@@ -5,7 +5,6 @@
 // oracles are the images' own colours, and a database that has none of them.
 
 #include "RasterTest.h"
-#include "TestImage.h"
 
 #include <osg/Texture2D>
 

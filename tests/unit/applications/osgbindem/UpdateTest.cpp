@@ -5,7 +5,6 @@
 // byte for byte.
 
 #include "RasterTest.h"
-#include "TestImage.h"
 
 namespace {
 
