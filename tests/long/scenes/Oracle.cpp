@@ -3,6 +3,8 @@
 
 #include "Oracle.h"
 
+#include "Parts.h"
+
 #include <osg/TriangleIndexFunctor>
 
 namespace osgAnalyticBin::test {
@@ -46,22 +48,25 @@ private:
         return std::any_of(_met.begin(), _met.end(), [&](const MetDatabase* met) {
             const auto isAllowedBy = [&](const AllowedOccluder& occluder) {
                 return occluder.database == met->number && mayHide(occluder, _description, *met, sight) &&
-                       (!isHilly || occluder.fromEverywhere || isUnderground(*met, sight));
+                       (!isHilly || occluder.fromEverywhere || isUnderground(*met, sight, occluder.highest));
             };
             return std::any_of(_allowed.begin(), _allowed.end(), isAllowedBy);
         });
     }
 
-    // Whether terrain is above the eye, or above the near plane where the line of sight begins.
-    [[nodiscard]] bool isUnderground(const MetDatabase& met, const Sight& sight) {
+    // Whether terrain is above the eye, or above the near plane where the line of sight begins. What is out of view is
+    // not drawn; there can be nothing above but terrain where the near plane is deeper than all of it.
+    [[nodiscard]] bool isUnderground(const MetDatabase& met, const Sight& sight, double relief) {
         const DatabaseSpec& database = _description.database(met.number);
+        const osg::Matrixd toDatabase = osg::Matrixd::inverse(met.modelView);
         const auto hasTerrainAbove = [&](const osg::Vec3d& point) {
-            osg::Vec3d up(0.0, 0.0, 1.0);
-            if (!database.isMap) up = point * osg::Matrixd::inverse(met.modelView);
+            osg::Vec3d up = database.isMap ? osg::Vec3d(0.0, 0.0, 1.0) : point * toDatabase;
             up.normalize();
             return isBlocked(point, point + osg::Matrixd::transform3x3(up, met.modelView) * database.size());
         };
-        return hasTerrainAbove(sight.start) || (sight.isPerspective && hasTerrainAbove(osg::Vec3d()));
+        const double deepest = std::min(database.equatorial, database.polar) - relief - sagOf(database, 0);
+        return (database.isWhole() && (sight.start * toDatabase).length() < deepest) || hasTerrainAbove(sight.start) ||
+               (sight.isPerspective && hasTerrainAbove(osg::Vec3d()));
     }
 
     const Description& _description;

@@ -116,9 +116,7 @@ public:
 private:
     /// What is in force at the end of the path.
     struct States {
-        bool isPlain = true;
-        bool hasProgram = false;
-        bool ignoresDepth = false, obeysDepth = false;
+        bool isPlain = true, hasProgram = false, ignoresDepth = false, obeysDepth = false;
     };
     [[nodiscard]] States states(const osg::StateSet* own) {
         States result;

@@ -154,10 +154,10 @@ TEST(AddedContent, IsDrawnWhereTheApplicationHasTakenOffTheWatchOfATileWithoutSi
     const osg::ref_ptr<osg::PagedLOD> leaf = makePaged(globe.group->getChild(0), "no.osgb");
     globe.tile->setChild(1, leaf);
     installBins(*globe.root);
-    ASSERT_NE(installedOn(*leaf), nullptr);
     const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
-    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    ASSERT_FALSE(globe.draws(*leaf, beside(place)));
     leaf->setComputeBoundingSphereCallback(nullptr);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
     leaf->addChild(tower, 0.0f, 1e10f);
     globe.expectDrawn(*tower, beside(place));
 }
