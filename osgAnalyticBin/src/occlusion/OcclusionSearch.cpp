@@ -363,6 +363,9 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
         return true;
     };
     leftView.erase(std::remove_if(leftView.begin(), leftView.end(), isGone), leftView.end());
+    // each tile that has come, or left the view, costs a look at all others
+    constexpr std::size_t kMostLeft = 16;
+    for (; leftView.size() > kMostLeft; leftView.pop_back()) change->lost.push_back(leftView.back().number);
     const bool isRaised = earth && earth->raiseLowest(change->top);
     if (isRaised || !change->lost.empty()) forget(change->lost);
     isOutdated = isOutdated || !change->lost.empty() || !come.empty();
@@ -370,8 +373,6 @@ bool FoundOcclusion::follow(const core::PlaneSet& view, const core::Ellipsoid& e
 }
 
 std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::Ellipsoid& ellipsoid, const MeshOf& meshOf) {
-    // each tile that has come, or left the view, costs a look at all others
-    constexpr std::size_t kMostLeft = 16;
     const core::InverseFrame frame(eye);
     std::vector<std::uint32_t> now;
     now.reserve(shown.size());
@@ -386,12 +387,8 @@ std::optional<FoundOcclusion::Change> FoundOcclusion::match(const core::Ellipsoi
     };
     const auto passUntil = [&](std::size_t end) {
         for (; next < end; ++next) {
-            if (number[next] == kCame || findings[number[next]] != Finding::Seen) continue;
-            if (leftView.size() < kMostLeft) {
+            if (number[next] != kCame && findings[number[next]] == Finding::Seen)
                 leftView.push_back({number[next], tiles[next].bin, quartersOf(tiles[next], ellipsoid)});
-            } else {
-                change.lost.push_back(number[next]);
-            }
         }
     };
     for (const Tile& tile : shown) {
