@@ -77,8 +77,8 @@ public:
 
     /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit draws tiles directly. Returns:
     /// nullopt if it gets a drawable more often than the derived visitor that `recorded` is of, unless `mayGetMore`, if
-    /// it gets one as often but in another way, if it gets the same drawables with other near and far planes, or if
-    /// levels that it draws are not stamped.
+    /// it gets one as often but in another way, if it gets the same drawables with other near and far planes, if levels
+    /// that it draws are not stamped, or if a tile that it draws does not ask for the file that it asks for there.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded, bool mayGetMore) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
@@ -90,12 +90,20 @@ public:
             return cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime());
         };
         forgetStamps();
+        const osg::ref_ptr<Requests> asked = new Requests, expected = new Requests;
+        _plain->setDatabaseRequestHandler(asked);
+        _derived->setDatabaseRequestHandler(expected);
         const CullResult here = culledBy(*_plain);
         const std::vector<Leaf> plain = leavesIn(*here.stage);
         const bool isStamped = areStamped(plain, stamp);
         const CullResult there = culledBy(*_derived);
         const std::vector<Leaf> derived = leavesIn(*there.stage);
-        if (!isStamped) return std::nullopt;
+        const auto lacks = [&](const Request& request) {
+            const std::string own = "#drawable" + request.first.substr(std::min<std::size_t>(5, request.first.size()));
+            const auto isOwn = [&](const Leaf& leaf) { return leaf.drawable->getName() == own; };
+            return asked->files.count(request) == 0 && std::any_of(plain.begin(), plain.end(), isOwn);
+        };
+        if (!isStamped || std::any_of(expected->files.begin(), expected->files.end(), lacks)) return std::nullopt;
         if (withoutOthers(plain, derived) != withoutOthers(derived, plain)) return std::nullopt;
         if (!mayGetMore && hasMore(plain, derived)) return std::nullopt;
         if (plain == derived && here.projection != there.projection) return std::nullopt;

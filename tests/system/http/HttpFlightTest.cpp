@@ -6,7 +6,6 @@
 
 #include "Nginx.h"
 #include "Report.h"
-#include "SmallGlobe.h"
 
 #include <cstdio>
 #include <set>

@@ -6,7 +6,6 @@
 
 #include "Nginx.h"
 #include "PagedFlight.h"
-#include "SmallGlobe.h"
 
 #include <osgDB/ReadFile>
 
