@@ -38,12 +38,13 @@ const osg::Camera* stageCamera(osg::NodeVisitor& visitor) {
 }
 
 constexpr unsigned int kLeastDepthBits = 24;
+constexpr GLenum kDepth32fStencil8 = 0x8CAD;  // GL_DEPTH32F_STENCIL8, which Windows lacks
 
 // Whether a format has that many bits, or leaves their number to the driver.
 bool isFineDepth(GLenum format) {
     return format == GL_DEPTH_COMPONENT || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32 ||
            format == GL_DEPTH_COMPONENT32F || format == GL_DEPTH_STENCIL_EXT || format == GL_DEPTH24_STENCIL8_EXT ||
-           format == GL_DEPTH32F_STENCIL8;
+           format == kDepth32fStencil8;
 }
 
 // Whether the depth buffer that is drawn into tells apart what horizons and occlusion tell apart. Where OSG leaves its
