@@ -25,7 +25,7 @@ TEST(TileSurface, TellsSkirtsOfMeshesFromTheirSurface) {
         const TileSurface surface = surfaceOf(*tile);
         ASSERT_TRUE(surface.bin.valid()) << c.name;
         EXPECT_FALSE(surface.isScalable);
-        EXPECT_NEAR(surface.skirt, mesh.skirt, mesh.doSkirtsLean ? 0.04 * mesh.skirt : 4.0) << c.name;
+        EXPECT_NEAR(surface.skirt, mesh.skirt, 4.0) << c.name;
         const auto samples = samplesOf(surfaceTriangles(*tile, mesh.posts));
         EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << c.name;
         const core::Interval seen = altitudesOf(samples);

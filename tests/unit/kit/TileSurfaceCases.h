@@ -53,7 +53,7 @@ struct VpbMesh {
     unsigned int posts = 17;
     double skirt = 5000.0;
     double low = -500.0, high = 3000.0;
-    bool doSkirtsLean = false;  // by 1.6 degrees to the geocentric vertical
+    bool doSkirtsLean = false;  // to the east of the geocentric vertical, by 1.7 degrees at the equator
 };
 
 inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random,
@@ -72,7 +72,8 @@ inline osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& 
         const double v = static_cast<double>(j) / (n - 1);
         glm::dvec3 ecef = ellipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
                                             c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
-        ecef -= leaning * glm::normalize(glm::normalize(ecef) + glm::dvec3(0.02, 0.02, 0.0));
+        const glm::dvec3 up = glm::normalize(ecef);
+        ecef -= leaning * glm::normalize(up - 0.03 * glm::dvec3(-up.y, up.x, 0.0));
         vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
         texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
     };
