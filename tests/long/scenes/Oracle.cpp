@@ -54,8 +54,8 @@ private:
         });
     }
 
-    // Whether terrain is above the eye, or above the near plane where the line of sight begins. What is out of view is
-    // not drawn; there can be nothing above but terrain where the near plane is deeper than all of it.
+    // Whether terrain is above the eye, or above the point of the near plane where the line of sight begins. Terrain
+    // out of view is not drawn, so that a point deeper than all terrain counts by its depth.
     [[nodiscard]] bool isUnderground(const MetDatabase& met, const Sight& sight, double relief) {
         const DatabaseSpec& database = _description.database(met.number);
         const osg::Matrixd toDatabase = osg::Matrixd::inverse(met.modelView);

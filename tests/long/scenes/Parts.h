@@ -19,7 +19,7 @@ struct Extents {
 
 [[nodiscard]] Extents extentsOf(const DatabaseSpec& database, const TileKey& tile);
 
-/// Metres, of a post, at vertical scale 1.
+/// The height of a post at vertical scale 1, metres.
 [[nodiscard]] double surfaceHeight(const DatabaseSpec& database, double latitude, double longitude);
 
 /// A place in the database's own frame.
@@ -42,40 +42,40 @@ struct MeshShape {
     bool drawsNothing = false;  ///< not for osgTerrain
 };
 
-/// The mesh of a tile whose frame is turned by an angle.
+/// The mesh of a tile. `turn`: the angle by which its frame is turned.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& tile, double turn,
                                                const MeshShape& shape);
 
 /// How many variants of MeshHole there are.
 constexpr int kHoles = 5;
 
-/// Does to a mesh what a part of the kinds MeshHole, ReversedFaces and Raise says.
+/// Alters a mesh as a part of kind MeshHole, ReversedFaces or Raise says.
 void alterMesh(const Part& part, const DatabaseSpec& database, double turn, osg::Drawable& drawable);
 
-/// A tower or a vehicle; `toDatabase`: from the frame that it is put in to the database's own.
+/// A tower or a vehicle. `toDatabase`: from the frame in which it stands to that of the database.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part,
                                                 const osg::Matrixd& toDatabase);
 
-/// They have the numbers from 0 on.
+/// States have the numbers from 0 on.
 [[nodiscard]] int stateCount();
 [[nodiscard]] std::string stateName(int number);
 /// Returns: the number of a name that is there.
 [[nodiscard]] int stateOf(const std::string& name);
 
-/// Sets attribute and modes of a state. `value`: of each; OFF sets attributes all the same, and switches modes off.
+/// Sets a state. `value`: of its attribute and modes; OFF switches modes off, and sets the attribute all the same.
 void setState(int number, osg::StateAttribute::GLModeValue value, osg::StateSet& states);
 
 /// Whether a picture shows the same drawables in the same places whatever these states are.
 [[nodiscard]] bool isHarmless(const osg::StateSet& states);
 
-/// Moves a MatrixTransform by an equal step in every frame, in its own frame.
+/// Moves a MatrixTransform by the same step in every frame, in its own frame.
 [[nodiscard]] osg::ref_ptr<osg::NodeCallback> makeMover(const osg::Matrixd& start, const osg::Vec3d& step, int frame);
 
-/// Hangs on a node the callback that a part is, if it is one.
+/// Adds to a node the callback that a part describes; nothing, if the part describes none.
 void addCallback(const Part& part, osg::Node& node);
 
 /// Looks at every visitor that it meets as applications do: one of the cull traversal is a CullVisitor, and the handler
-/// of its requests is a DatabasePager. What is otherwise is told by takeComplaint().
+/// of its requests is a DatabasePager. takeComplaint() tells of others.
 class CastingGroup : public osg::Group {
 public:
     CastingGroup() = default;
@@ -88,10 +88,10 @@ public:
     void traverse(osg::NodeVisitor& nv) override;
 };
 
-/// Undoes what callbacks of the kind Meddles did in the last traversal.
+/// Undoes what callbacks of kind Meddles did in the last traversal.
 void undoMeddling();
 
-/// Returns: what a CastingGroup or a callback has seen since the last call that OSG shows to none, else nothing.
+/// Returns: what a CastingGroup or a callback has met since the last call that OSG alone would not show it, or nothing.
 [[nodiscard]] std::string takeComplaint();
 
 /// Calls `visit(node)` with all nodes, whatever is switched off; it returns whether to go on below the node. A terrain

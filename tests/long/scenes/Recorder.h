@@ -126,7 +126,7 @@ private:
             result.hasProgram = result.hasProgram || set->getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
             result.isPlain = result.isPlain && isHarmless(*set);
             const auto* const depth = dynamic_cast<const osg::Depth*>(set->getAttribute(osg::StateAttribute::DEPTH));
-            (depth && depth->getFunction() == osg::Depth::ALWAYS ? result.ignoresDepth : result.obeysDepth) |= !!depth;
+            if (depth) (depth->getFunction() == osg::Depth::ALWAYS ? result.ignoresDepth : result.obeysDepth) = true;
         };
         add(own);
         const osgUtil::StateGraph* graph = getCurrentStateGraph();

@@ -78,7 +78,7 @@ public:
     /// The part of `recorded` that OSG's own visitor gets; for that visitor the kit draws tiles directly. Returns:
     /// nullopt if it gets a drawable more often than the derived visitor that `recorded` is of, unless `mayGetMore`, if
     /// it gets one as often but in another way, if it gets the same drawables with other near and far planes, if levels
-    /// that it draws are not stamped, or if a tile that it draws does not ask for the file that it asks for there.
+    /// that it draws are not stamped, or if a tile that it draws asks for fewer files.
     [[nodiscard]] std::optional<Delivery> deliverToOsg(const ViewSpec& spec, const osg::FrameStamp& stamp,
                                                        Delivery recorded, bool mayGetMore) {
         const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
@@ -99,7 +99,9 @@ public:
         const CullResult there = culledBy(*_derived);
         const std::vector<Leaf> derived = leavesIn(*there.stage);
         const auto lacks = [&](const Request& request) {
-            const std::string own = "#drawable" + request.first.substr(std::min<std::size_t>(5, request.first.size()));
+            // the names of a tile and of its drawable end alike
+            const std::size_t blank = std::min(request.first.find(' '), request.first.size());
+            const std::string own = "#drawable" + request.first.substr(blank);
             const auto isOwn = [&](const Leaf& leaf) { return leaf.drawable->getName() == own; };
             return asked->files.count(request) == 0 && std::any_of(plain.begin(), plain.end(), isOwn);
         };

@@ -104,11 +104,11 @@ class Ranks:
 
     def stopped(self, folder, process):
         try:
-            process.wait(60)
+            said = process.communicate(timeout=60)[0]
         except subprocess.TimeoutExpired:  # an mpirun that hangs without ranks is a fault of its own, and rare
             require(not (left := self.ranks_of(folder)), f"ranks do not end: {left}")
             process.kill()
-        said = process.communicate()[0]
+            said = process.communicate()[0]
         require(process.returncode != 0, "a run that was stopped ended with 0")
         # mpirun gives programs a second to end, and may end itself before it has passed on what they say
         require(said.count("osgbindem: ") == ("the same command goes on" in said), f"not one clear message: {said}")

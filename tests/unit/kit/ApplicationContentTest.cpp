@@ -126,7 +126,7 @@ TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
     EXPECT_TRUE(globe.draws(*tower, beside(place)));
 }
 
-// A reader of the application's adds it, and the pager asks for the bound of what it has read.
+// The application's reader adds it to a file, and the pager computes the bound of what it has read.
 TEST(AddedContent, IsNoticedWhereAFileBringsIt) {
     FiledGlobe globe;
     const osg::ref_ptr<osg::Group> file = readBelow(*globe.tile)->asGroup();

@@ -149,7 +149,7 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
 void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
     forEachNode(subgraph, [&nested](osg::Node& node) {
         const auto* const bin = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
-        // in this scene or before it was saved
+        // an installer made it, in this scene or before the scene was saved
         if (bin && bin->isInstalled()) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
         takeOffFirst<NoCulling>(node);

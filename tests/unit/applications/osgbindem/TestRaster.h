@@ -210,7 +210,7 @@ private:
 /// Red, green, blue.
 using Colour = std::array<int, 3>;
 
-/// How a file says that it has no pixel somewhere.
+/// How a file marks places without a pixel.
 enum class Hole { Alpha, Mask, Nodata, Palette };
 
 /// An image, square degree by square degree: `pixels` by `pixels` from the north-west corner on.
