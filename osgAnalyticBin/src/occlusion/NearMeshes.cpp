@@ -18,11 +18,11 @@ std::shared_ptr<const core::EcefMesh> NearMeshes::meshOf(const AnalyticBinCullCa
     const bool isChanged = tile.getInstalledTile() && tile.getInstalledTile()->has(InstalledTile::MeshChanged);
     const bool isSame = known && !isChanged && known->localToEcef == tile.getLocalToEcef();
     if (isSame && ++known->uses < kMostUses) return known->mesh;
+    if (_mostReads == 0) return nullptr;
+    --_mostReads;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    // counts begin at different numbers, so that meshes read in one view are not all read again in one view
-    const auto early = static_cast<int>(known - _known.data()) * kMostUses / static_cast<int>(kMostTiles);
-    *known = {nullptr, nullptr, tile.getLocalToEcef(), early, nullptr};
+    *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, nullptr};
     // the frame of a transform that is culled itself is that of what is below it
     const bool isInOwnFrame = mesh.asTransform() && tile.getInstalledTile() && tile.getInstalledTile()->isFor(&mesh);
     if (isInOwnFrame || !tile.getInstalledTile()) return nullptr;

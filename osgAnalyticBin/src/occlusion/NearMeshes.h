@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <osg/Matrixd>
@@ -19,13 +20,17 @@ namespace osgAnalyticBin {
 /// Keeps the meshes around an eye from frame to frame.
 class NearMeshes {
 public:
-    /// Returns: all triangles of a tile's own mesh, ECEF; null where the mesh cannot be read. They do not change: other
-    /// threads may keep them. Cost: the mesh is read when its tile was not asked for lately, when a change of it was
-    /// noticed, and after 16 uses at most.
-    [[nodiscard]] std::shared_ptr<const core::EcefMesh> meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);
+    /// Returns: all triangles of a tile's own mesh, ECEF; null where the mesh cannot be read, or is one too many. They
+    /// do not change: other threads may keep them. Cost: the mesh is read when its tile was not asked for lately, when
+    /// a change of it was noticed, and after 16 uses at most.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT std::shared_ptr<const core::EcefMesh> meshOf(
+        const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
     /// More tiles are not kept.
     static constexpr std::size_t kMostTiles = 16;
+
+    /// From now on so many meshes are read, and no more: reading one takes as long as culling many tiles.
+    void setMostReads(std::size_t meshes) { _mostReads = meshes; }
 
 private:
     struct Known {
@@ -38,6 +43,7 @@ private:
 
     std::vector<Known> _known;
     std::size_t _oldest = 0;
+    std::size_t _mostReads = kMostTiles;
 };
 
 }  // namespace osgAnalyticBin

@@ -6,7 +6,24 @@
 #include <system_error>
 #include <utility>
 
+#if __has_include(<sched.h>)
+#include <sched.h>
+#endif
+
 namespace osgAnalyticBin {
+
+namespace {
+
+// A thread that is woken after a rest may take the processor from the one that woke it, which is culling. Where the
+// system knows threads that do not, the calling thread is one from now on.
+void giveWayToOthers() {
+#ifdef SCHED_BATCH
+    const sched_param none{};
+    (void)sched_setscheduler(0, SCHED_BATCH, &none);
+#endif
+}
+
+}  // namespace
 
 SearchThread::~SearchThread() {
     {
@@ -35,6 +52,7 @@ std::future<FoundPtr> SearchThread::start(std::function<FoundPtr()> search) {
 }
 
 void SearchThread::run() {
+    giveWayToOthers();
     std::unique_lock<std::mutex> lock(_mutex);
     while (true) {
         _changed.wait(lock, [this] { return _isEnding || _next.valid(); });

@@ -206,7 +206,7 @@ FoundPtr aimed(const FoundOcclusion& last, const TerrainHider::View& view, const
 }
 
 // How many of the next views, up to kForeseen, what was found will serve, if the camera goes on as it does.
-constexpr int kForeseen = 2;
+constexpr int kForeseen = 3;
 int viewsLeft(const FoundOcclusion& found, const glm::dvec3& eye, const core::Interval& across) {
     int views = 0;
     const auto serves = [&](int view) {
@@ -263,6 +263,7 @@ public:
         const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
         if (!lines) return nothingFor(kSteep);
         if (!_found) _found = std::make_unique<FoundOcclusion>();
+        _nearMeshes.setMostReads(NearMeshes::kMostTiles);
         Hidden hidden;
         const Ground ground = describe(view, shown, _found->shown, hidden.withoutPlates);
         hidden.isAwaited = ground == Ground::Awaited;
@@ -293,8 +294,11 @@ public:
             takeOver(std::move(next), *lines, spanThen);
         }
         if (!_ahead.valid() && spanThen) {
-            const int more = isDue(*_found, view) ? 0 : viewsLeft(*_found, view.eye, spanThen->across);
-            if (more < kForeseen) searchAhead(view, *lines, shown, spanThen, more + 1);
+            const int more = viewsLeft(*_found, view.eye, spanThen->across);
+            // as long as there is time, one mesh a view
+            _nearMeshes.setMostReads(more > 0 ? 1 : NearMeshes::kMostTiles);
+            const bool isNow = isDue(*_found, view);
+            if (isNow || more < kForeseen) searchAhead(view, *lines, shown, spanThen, isNow ? 1 : more + 1);
         }
         hidden.tiles = std::move(left->tiles);
         _found->neededReach = left->reach;

@@ -6,6 +6,7 @@
 // proves: HorizonBufferTest.cpp.
 
 #include "../../../osgAnalyticBin/src/occlusion/LevelPicture.h"
+#include "../../../osgAnalyticBin/src/occlusion/NearMeshes.h"
 #include "KitTest.h"
 
 namespace osgAnalyticBin::test {
@@ -215,6 +216,24 @@ TEST(TerrainOcclusion, LeavesRoomForPixelsThatAreNotSquare) {
         ASSERT_TRUE(span);
         EXPECT_GE(span->drawing, std::max(0.2 / columns, 2.0 / rows) / 128.0);
     }
+}
+
+// An application may say nothing of a change.
+TEST(NearMeshes, AreReadAnewOnceTheyHaveChanged) {
+    RidgeGlobe globe;
+    installBins(*globe.root);
+    NearMeshes meshes;
+    const auto meshOf = [&](std::size_t i) {
+        return meshes.meshOf(*installedOn(*globe.row[i]), *globe.row[i]->getChild(0));
+    };
+    const auto last = meshOf(0);
+    ASSERT_TRUE(last);
+    EXPECT_EQ(meshOf(0), last);
+    for (osg::Vec3& vertex : verticesOf(*globe.row[0])) vertex *= 1.5f;
+    for (int i = 0; i < 16; ++i) (void)meshOf(0);
+    EXPECT_NE(meshOf(0)->x, last->x);
+    meshes.setMostReads(1);
+    EXPECT_TRUE(meshOf(1) && !meshOf(2) && meshOf(1));
 }
 
 // OSG draws such arrays, and crashes where it looks for intersections with them.
