@@ -69,16 +69,18 @@ on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
     --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
 step "Frames of flights, whole and with a driver that draws nothing"
-draw_frames() { # GALLIUM_NOOP, path, threading, name
+draw_frames() { # GALLIUM_NOOP, path, metres a second, frames, threading, name
     on_display env GALLIUM_NOOP="$1" "$build/bin/osgbinbench" "$out/earth.osgb" --path "data/paths/$2.csv" \
-        --frames 100 --draw --threading "$3" --methods "sphere,cluster,$default" --size 640x360 \
-        --json "$out/frames_$2_$4.json" >"$out/frames_$2_$4.txt"
+        --speed "$3" --frames "$4" --draw --threading "$5" --methods "sphere,cluster,$default" --size 640x360 \
+        --json "$out/frames_$2_$6.json" >"$out/frames_$2_$6.txt"
 }
-for path in helicopter approach; do
-    draw_frames 0 "$path" SingleThreaded "one thread"
-    draw_frames 0 "$path" DrawThreadPerContext "draw thread"
+for flight in helicopter:50 approach:80; do
+    draw_frames 0 "${flight%:*}" "${flight#*:}" 60 SingleThreaded "one thread"
+    draw_frames 0 "${flight%:*}" "${flight#*:}" 60 DrawThreadPerContext "draw thread"
 done
-for path in helicopter approach valley rockies; do draw_frames 1 "$path" SingleThreaded "processor"; done
+for flight in helicopter:50 approach:80 valley:100 rockies:250; do
+    draw_frames 1 "${flight%:*}" "${flight#*:}" 300 SingleThreaded "processor"
+done
 
 step "Jumps, from disk and over a line of 20 ms"
 jumps="--path data/paths/demo.csv --jumps --size 640x360 --methods $peers,quadratic+horizon+edges,$default"

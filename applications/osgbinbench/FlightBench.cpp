@@ -41,9 +41,21 @@ public:
         _scene.pause();
     }
 
-    void takeTurn(const flight::CameraPose* begin, const flight::CameraPose* end) {
+    // `startsLoaded`: begins once all that it shows is loaded, which does not count.
+    void takeTurn(const flight::CameraPose* begin, const flight::CameraPose* end, bool startsLoaded, double timeout) {
+        if (startsLoaded) load(*begin, timeout);
         const Turn turn(*this);
         for (const flight::CameraPose* pose = begin; pose != end; ++pose) fly(*pose);
+    }
+
+    void load(const flight::CameraPose& pose, double timeout) {
+        _scene.resume();
+        const auto begin = Clock::now();
+        for (bool isLoaded = false; !isLoaded; std::this_thread::sleep_for(_period)) {
+            isLoaded = _scene.flyFrame(pose, _period.count()).wanted == 0;
+            if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
+        }
+        _scene.pause();
     }
 
     void jumpTo(const flight::CameraPose& pose, double timeout) {
@@ -93,6 +105,8 @@ private:
         const MethodScene::Frame frame = _scene.flyFrame(pose, _period.count());
         add("missing_frames", frame.wanted > 0 ? 1U : 0U);
         _times.push_back(frame.cullMs);
+        std::fprintf(stderr, "FR %s %zu %.3f %u\n", _scene.method().name.c_str(), _times.size(), frame.cullMs,
+                     (unsigned)frame.wanted);
         add("drawn_tiles", _scene.census().tiles.size());
         std::this_thread::sleep_until(end);
         return frame.wanted > 0;
@@ -225,17 +239,21 @@ Measurement flyDrawn(const Settings& settings, const std::vector<CullMethod>& me
 }  // namespace
 
 Measurement fly(const Settings& settings, const std::vector<CullMethod>& methods,
-                const std::vector<flight::CameraPose>& path, FileWatch& watch) {
+                const std::vector<flight::CameraPose>& path, const core::Ellipsoid& globe, FileWatch& watch) {
     if (settings.jumps)
         return inTurns(settings, methods, watch, path.size(), 1, " jumps",
                        [&](Flight& flight, std::size_t pose) { flight.jumpTo(path[pose], settings.timeout); });
-    const std::vector<flight::CameraPose> frames = flight::continuousPath(path, settings.frames);
+    const bool isAhead = settings.speed > 0.0;
+    const int framesAhead = std::max(1, settings.frames / static_cast<int>(path.size()));
+    const double step = settings.speed / settings.frameRate / globe.equatorialRadius();
+    const std::vector<flight::CameraPose> frames =
+        isAhead ? flight::flightsAhead(path, framesAhead, step) : flight::continuousPath(path, settings.frames);
     if (settings.draw) return flyDrawn(settings, methods, frames, watch);
-    return inTurns(settings, methods, watch, frames.size(), kFramesPerTurn, " frames",
-                   [&](Flight& flight, std::size_t begin) {
-                       const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
-                       flight.takeTurn(&frames[begin], frames.data() + end);
-                   });
+    const std::size_t perTurn = isAhead ? static_cast<std::size_t>(framesAhead) : kFramesPerTurn;
+    return inTurns(settings, methods, watch, frames.size(), perTurn, " frames", [&](Flight& flight, std::size_t begin) {
+        const std::size_t end = std::min(begin + perTurn, frames.size());
+        flight.takeTurn(&frames[begin], frames.data() + end, isAhead, settings.timeout);
+    });
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -145,6 +145,10 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         "draws the frames of --frames in a viewer, each once all of it\nis loaded, and times them instead of counting");
     app.add_flag("--jumps", settings.jumps,
                  "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
+    app.add_option("--speed", settings.speed,
+                   "metres a second: flies straight ahead from each pose, once it is\nloaded, for its share of "
+                   "--frames (default: from pose to pose,\nhowever far apart they are)")
+        ->check(support::within(0.01, 1e6));
     app.add_option("--frame-rate", settings.frameRate,
                    "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)")
         ->check(support::within(0.1, 10000.0));
@@ -169,6 +173,7 @@ void check(const Settings& settings) {
     if (!cullOptionsFromText(settings.binOptions, error)) throw UsageError("--options: " + error);
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
     if (settings.draw && settings.frames == 0) throw UsageError("--draw: give --frames, how many are to be drawn");
+    if (settings.speed > 0.0 && settings.frames == 0) throw UsageError("--speed: give --frames, how many are flown");
     const bool isLive = settings.frames > 0 || settings.jumps;
     if (isLive && !settings.pictures.empty())
         throw UsageError("--pictures: with paging live none are taken; leave --frames and --jumps out");

@@ -35,6 +35,7 @@ struct Settings {
     int frames = 0;                               ///< of the continuous flight alone; 0: stop at every pose first
     bool draw = false;                            ///< the frames of the continuous flight, in a viewer
     bool jumps = false;                           ///< from pose to pose with the pager running, and nothing else
+    double speed = 0.0;                           ///< metres a second ahead from each pose; 0: along the path
     double frameRate = 60.0;                      ///< frames a second of the continuous flight, at most
     double expiry = CullOptions::kDefaultExpiry;  ///< seconds, of methods without bins in flight; 0: OSG's own rule
     double timeout = 120.0;                       ///< seconds that one pose may take to load and draw

@@ -174,6 +174,13 @@ core::Geodetic mixed(const core::Geodetic& a, const core::Geodetic& b, double sh
     return {std::asin(std::clamp(v.z, -1.0, 1.0)), std::atan2(v.y, v.x), mixed(a.altitude, b.altitude, share)};
 }
 
+// Turned about an axis across it.
+core::Geodetic turned(const core::Geodetic& place, const glm::dvec3& axis, double angle) {
+    const glm::dvec3 from = core::Ellipsoid(1.0, 1.0).up(place.latitude, place.longitude);
+    const glm::dvec3 v = std::cos(angle) * from + std::sin(angle) * glm::cross(axis, from);
+    return {std::asin(std::clamp(v.z, -1.0, 1.0)), std::atan2(v.y, v.x), place.altitude};
+}
+
 CameraPose mixed(const CameraPose& a, const CameraPose& b, double share) {
     return {{},
             mixed(a.eye, b.eye, share),
@@ -199,6 +206,26 @@ std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int 
         const double seconds = path[to].time - path[from].time;
         const double share = seconds > 0.0 ? std::clamp((time - path[from].time) / seconds, 0.0, 1.0) : 0.0;
         poses.push_back(mixed(path[from], path[to], share));
+    }
+    return poses;
+}
+
+std::vector<CameraPose> flightsAhead(const std::vector<CameraPose>& path, int frames, double step) {
+    constexpr double kSmall = 1e-12;
+    const core::Ellipsoid sphere(1.0, 1.0);
+    std::vector<CameraPose> poses;
+    for (const CameraPose& start : path) {
+        const glm::dvec3 eye = sphere.up(start.eye.latitude, start.eye.longitude);
+        const glm::dvec3 across = glm::cross(eye, sphere.up(start.look.latitude, start.look.longitude));
+        const glm::dvec3 west(std::sin(start.eye.longitude), -std::cos(start.eye.longitude), 0.0);
+        const glm::dvec3 axis = glm::length(across) > kSmall ? glm::normalize(across) : west;
+        for (int frame = 0; frame < frames; ++frame) {
+            CameraPose pose = start;
+            pose.name.clear();
+            pose.eye = turned(start.eye, axis, frame * step);
+            pose.look = turned(start.look, axis, frame * step);
+            poses.push_back(pose);
+        }
     }
     return poses;
 }

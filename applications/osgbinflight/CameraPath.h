@@ -45,4 +45,9 @@ struct CameraPose {
 /// frame the first alone), without names.
 [[nodiscard]] std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int frames);
 
+/// From each pose of a path a flight straight ahead: eye and look point move by `step` radians a frame along the great
+/// circle through both (north where the view goes straight down), at their altitudes. Requires: frames > 0. Returns:
+/// that many poses for each one, itself the first of them, without names.
+[[nodiscard]] std::vector<CameraPose> flightsAhead(const std::vector<CameraPose>& path, int frames, double step);
+
 }  // namespace osgAnalyticBin::flight

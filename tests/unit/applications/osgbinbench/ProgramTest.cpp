@@ -145,6 +145,8 @@ TEST_F(Program, FliesContinuously) {
             EXPECT_GT(method[counted], 0) << counted;
         EXPECT_GE(method["cull_99th_ms"], method["cull_median_ms"]);
     }
+    const Json ahead = run("ahead", {"--frames", "12", "--speed", "10", "--methods", "sphere"});
+    EXPECT_EQ(ahead["sphere"]["missing_frames"], 0) << "each flight begins with all that it shows";
     // the times of frames that are drawn come some frames late
     const Json drawn =
         run("drawn", {"--frames", "12", "--draw", "--methods", "sphere,exact", "--threading", "DrawThreadPerContext"});

@@ -67,6 +67,7 @@ TEST(Settings, WrongOnesNameTheOption) {
         {{"--frames", "10", "--pictures", "pictures"}, "--pictures: "},
         {{"--jumps", "--report", "page.html"}, "--report: "},
         {{"--draw"}, "--draw: "},
+        {{"--speed", "100"}, "--speed: "},
         {{"--csv", "/absent/p.csv"}, "--csv: there is no folder"}};
     for (const auto& [words, what] : cases) {
         const std::string error = test::failureOf([&options = words] { (void)settingsWith(options); });

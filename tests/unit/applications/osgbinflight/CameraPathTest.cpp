@@ -206,6 +206,16 @@ TEST(ContinuousPath, ClimbsByEqualRatiosRollsAndStepsAsideAndCrossesTheDateLineT
     EXPECT_NEAR(frames[1].eyeRight, 2.0, kTolerance);
 }
 
+TEST(FlightsAhead, GoFromEachPoseToWhereItLooks) {
+    const auto frames = flightsAhead({poseAt(0, 10, 1000), poseAt(20, 30, 500)}, 3, 0.01);
+    ASSERT_EQ(frames.size(), 6U);
+    EXPECT_NEAR(frames[2].eye.latitude, 0.02, kTolerance);
+    EXPECT_NEAR(frames[2].look.latitude, 0.12, kTolerance);
+    EXPECT_NEAR(frames[4].eye.latitude, kPi / 9.0 - 0.01, kTolerance);
+    EXPECT_NEAR(frames[4].eye.longitude, kPi / 6.0, kTolerance);
+    EXPECT_EQ(frames[4].eye.altitude, 500.0);
+}
+
 TEST(ContinuousPath, TakesOnePoseOrOneFrame) {
     EXPECT_EQ(continuousPath({poseAt(1, 2, 3)}, 4).size(), 4U);
     const auto frames = continuousPath({poseAt(10, 20, 1000), poseAt(30, 40, 4000)}, 1);
