@@ -22,7 +22,6 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
-#include <utility>
 
 namespace osgAnalyticBin::bench {
 

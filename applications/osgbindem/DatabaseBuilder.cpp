@@ -13,13 +13,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <future>
 #include <iostream>
 #include <set>
-#include <thread>
-#include <utility>
 
 namespace osgbindem {
 

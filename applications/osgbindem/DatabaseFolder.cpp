@@ -9,7 +9,6 @@
 
 #include <cpl_string.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>

@@ -9,7 +9,6 @@
 #include "TileLayout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>

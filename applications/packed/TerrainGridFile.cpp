@@ -4,7 +4,6 @@
 #include "TerrainGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace osgAnalyticBin {

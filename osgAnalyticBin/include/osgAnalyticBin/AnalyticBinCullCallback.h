@@ -22,7 +22,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 
 namespace osg {
 class CullStack;

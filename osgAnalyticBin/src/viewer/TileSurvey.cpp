@@ -18,7 +18,6 @@
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
-#include <algorithm>
 #include <array>
 #include <unordered_map>
 

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The time of one tile against the four side planes of a frustum, by OSG's sphere and by bins: BM_Classify with nine
-// tiles in ten outside, BM_ClassifyHalf with half of them. Before anything is timed, all answers are compared with the
-// oracle.
+// tiles in ten outside, BM_ClassifyHalf with half of them. All answers are compared with the oracle first.
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>

@@ -231,8 +231,7 @@ constexpr int kGroupClasses = 6;
 /// Whether the application may leave out a tile or a part of one, or draw it otherwise than by its vertices.
 [[nodiscard]] bool altersDrawing(PartKind kind);
 
-/// Whether a vertical scale is set. OSG's spheres of osgTerrain tiles do not follow it: without bins visible tiles are
-/// culled.
+/// Whether a vertical scale is set. OSG's spheres of osgTerrain tiles do not follow it, and cull visible ones.
 [[nodiscard]] bool hasScaledTerrain(const Description& description);
 
 /// Whether a database consists of osgTerrain tiles.

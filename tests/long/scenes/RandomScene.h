@@ -21,8 +21,7 @@ namespace osgAnalyticBin::test {
 /// A tile that the database shows at some time.
 [[nodiscard]] TileKey randomTile(Random& random, const DatabaseSpec& database, int number, int level);
 
-/// Altitude, in metres, that stays below the heights that any options of randomOptions() declare, and within stored
-/// bins.
+/// Altitude, in metres, within stored bins and below the heights that any options of randomOptions() declare.
 [[nodiscard]] double highestWithinBins(const DatabaseSpec& database);
 
 /// Adds what applications do with meshes, states, callbacks, files and visitors: one or two subjects for a scene, each

@@ -241,8 +241,7 @@ std::vector<NamedState> makeStates() {
         {"line stipple", made<osg::LineStipple>(1, static_cast<GLushort>(0xFFFF)), {}},
         {"point", made<osg::Point>(1.0f), {}},
         {"point sprite", made<osg::PointSprite>(), {}, true, 0, true},
-        {"clamp color", made<osg::ClampColor>(), {}},
-    };
+        {"clamp color", made<osg::ClampColor>(), {}}};
     return all;
 }
 

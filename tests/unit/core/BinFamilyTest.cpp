@@ -155,8 +155,7 @@ void expectHorizonOfItsBins(const FamilyCase& c, Seen& seen) {
     }
 }
 
-// A slot's reach from the origin is rounded up: a proof that is within rounding could be missed, but no trial comes so
-// near.
+// A slot's reach from the origin is rounded up: a proof within rounding could be missed, but no trial comes so near.
 void expectSeparationOfItsBins(const FamilyCase& c, Seen& seen) {
     const FamilyVerdict verdict = verdictOf(c.family, c.planes, c.undecided);
     for (std::size_t i = 0; i < c.slots.size(); ++i) {

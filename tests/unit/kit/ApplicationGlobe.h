@@ -19,8 +19,7 @@
 
 namespace osgAnalyticBin::test {
 
-/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr when there
-/// is none.
+/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr without.
 [[nodiscard]] inline osg::Drawable* drawableOf(osg::Node& node) {
     if (osg::Drawable* drawable = node.asDrawable()) return drawable;
     if (auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {

@@ -120,8 +120,7 @@ inline void collectDrawn(const osgUtil::RenderBin& bin, std::set<const osg::Draw
         collectDrawn(*child, drawn);
 }
 
-/// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: of the frame, in
-/// seconds.
+/// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: in seconds.
 inline CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,
                        double time = 0.0) {
     const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 512, 512);

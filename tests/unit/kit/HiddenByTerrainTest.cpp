@@ -163,8 +163,7 @@ TEST(HiddenByTerrain, LeavesOutModelsOfManyKindsButNotWhatMayBeSeenAllTheSame) {
         {"a level in a sphere of the user's", [](auto& model) { wrapInLevel(model, 200.0f); }},
         {"another node that asks",
          [](auto& model) { model.getChild(0)->addCullCallback(new HiddenByTerrainCallback); }},
-        {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }},
-    };
+        {"scaled", [](auto& model) { wrap(model, *new osg::MatrixTransform(osg::Matrixd::scale(2.0, 1.0, 3.0))); }}};
     const std::vector<std::pair<std::string, ModelChange>> seen{
         {"a sign", [](auto& model) { addSign(model, 150000.0f); }},
         {"a sign that is switched on", [](auto& model) { addSwitchedSign(model, true, ~0u); }},
@@ -200,8 +199,7 @@ TEST(HiddenByTerrain, LeavesOutModelsOfManyKindsButNotWhatMayBeSeenAllTheSame) {
         {"a sphere that is too small", [](auto& model) { wrapInLevel(model, 1.0f); }},
         {"a class of the application's",
          [](auto& model) { model.getChild(0)->asGroup()->addChild(new OwnGeometry(geometryOf(model))); }},
-        {"a camera", [](auto& model) { wrap(model, *new osg::Camera); }},
-    };
+        {"a camera", [](auto& model) { wrap(model, *new osg::Camera); }}};
     for (const auto* const changes : {&hidden, &seen}) {
         for (const auto& [name, change] : *changes) {
             ModelsOnGlobe globe;

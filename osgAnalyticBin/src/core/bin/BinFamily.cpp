@@ -7,7 +7,6 @@
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <limits>
 #include <optional>

@@ -9,8 +9,6 @@
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 

@@ -7,9 +7,7 @@
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace osgAnalyticBin::core {

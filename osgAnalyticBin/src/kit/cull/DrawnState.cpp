@@ -62,7 +62,6 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
-#include <array>
 
 namespace osgAnalyticBin {
 

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <typeinfo>
 #include <unordered_set>
 
 namespace osgAnalyticBin {

@@ -16,7 +16,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 namespace osgAnalyticBin {
 

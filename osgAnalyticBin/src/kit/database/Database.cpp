@@ -15,7 +15,6 @@
 #include <optional>
 #include <set>
 #include <typeinfo>
-#include <utility>
 
 namespace osgAnalyticBin {
 

@@ -37,7 +37,6 @@
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>

@@ -25,7 +25,6 @@
 #include <osgTerrain/TerrainTile>
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {

@@ -10,10 +10,6 @@
 #include <osg/Matrixd>
 #include <osg/Vec2>
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 namespace osgAnalyticBin {
 
 /// The triangles of one drawable in ECEF; lines and points are triangles without area.

@@ -14,7 +14,6 @@
 #include <osgTerrain/Layer>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

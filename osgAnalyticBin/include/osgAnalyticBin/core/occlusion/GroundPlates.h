@@ -13,7 +13,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
