@@ -80,8 +80,10 @@ for flight in helicopter:50 approach:80; do
 done
 for flight in helicopter:50 approach:80 valley:100 rockies:250; do
     # Mesa's driver that draws nothing crashes now and then, whatever is drawn
-    for _ in 1 2 3 4; do
-        ! draw_frames 1 "${flight%:*}" "${flight#*:}" 120 SingleThreaded "processor" || break
+    tries=1
+    until draw_frames 1 "${flight%:*}" "${flight#*:}" 120 SingleThreaded "processor"; do
+        tries=$((tries + 1))
+        [ "$tries" -le 4 ] || { echo "figures.sh: $flight ended in an error four times" >&2; exit 1; }
     done
 done
 

@@ -119,16 +119,15 @@ struct PoseFigures {
 /// frames are drawn the reference, too. How many files a flight takes depends on the machine too.
 /// --frames: once, continuously, at the settings' rate, whether the files wanted have come or not. Methods take turns
 /// of some frames each, starting with another one every time; in the turns of others a method's pager and clock stand
-/// still. Frames are culled, not drawn, as drawing by software would set the pace. With --speed a turn is the flight
-/// ahead from one pose, which begins when all is loaded there.
+/// still. Frames are culled, not drawn, as drawing by software would set the pace. With --speed each turn is a flight
+/// straight ahead from one pose, which begins once everything there is loaded.
 /// --jumps: from pose to pose, from the root file alone on, standing at each until nothing is missing.
 /// --draw: continuously, in a viewer, at the settings' rate at most. A frame is timed once all that it shows is loaded,
 /// so that all methods draw the same scene. Each method flies the whole path from the root file alone, several times;
 /// the methods take turns flight by flight.
-/// Throws: Failure when the database cannot be read, there is nothing to draw on, or what a pose of --jumps or a frame
-/// of --draw shows takes longer than the timeout to load. Progress goes to stderr.
+/// Throws: Failure when the database cannot be read, there is nothing to draw on, or what a pose of --jumps or --speed
+/// or a frame of --draw shows takes longer than the timeout to load. Progress goes to stderr.
 [[nodiscard]] Measurement fly(const Settings& settings, const std::vector<CullMethod>& methods,
-                              const std::vector<flight::CameraPose>& path, const core::Ellipsoid& globe,
-                              FileWatch& watch);
+                              const std::vector<flight::CameraPose>& path, FileWatch& watch);
 
 }  // namespace osgAnalyticBin::bench

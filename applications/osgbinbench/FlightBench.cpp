@@ -41,29 +41,21 @@ public:
         _scene.pause();
     }
 
-    // `startsLoaded`: begins once all that it shows is loaded, which does not count.
-    void takeTurn(const flight::CameraPose* begin, const flight::CameraPose* end, bool startsLoaded, double timeout) {
-        if (startsLoaded) load(*begin, timeout);
+    // Loads all that a pose shows, which does not count.
+    void load(const flight::CameraPose& pose, double timeout) {
+        _scene.resume();
+        (void)awaitAll(pose, timeout, false);
+        _scene.pause();
+    }
+
+    void takeTurn(const flight::CameraPose* begin, const flight::CameraPose* end) {
         const Turn turn(*this);
         for (const flight::CameraPose* pose = begin; pose != end; ++pose) fly(*pose);
     }
 
-    void load(const flight::CameraPose& pose, double timeout) {
-        _scene.resume();
-        const auto begin = Clock::now();
-        for (bool isLoaded = false; !isLoaded; std::this_thread::sleep_for(_period)) {
-            isLoaded = _scene.flyFrame(pose, _period.count()).wanted == 0;
-            if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
-        }
-        _scene.pause();
-    }
-
     void jumpTo(const flight::CameraPose& pose, double timeout) {
         const Turn turn(*this);
-        const auto begin = Clock::now();
-        while (fly(pose))
-            if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
-        const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin);
+        const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(awaitAll(pose, timeout, true));
         add("complete_ms", static_cast<std::uint64_t>(passed.count()));
     }
 
@@ -99,15 +91,23 @@ private:
         const std::uint64_t _files, _bytes;
     };
 
+    // Stands at a pose until nothing is missing. Returns: how long.
+    [[nodiscard]] Clock::duration awaitAll(const flight::CameraPose& pose, double timeout, bool counts) {
+        const auto begin = Clock::now();
+        while (fly(pose, counts))
+            if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
+        return Clock::now() - begin;
+    }
+
     // Returns: whether something was missing.
-    bool fly(const flight::CameraPose& pose) {
+    bool fly(const flight::CameraPose& pose, bool counts = true) {
         const auto end = Clock::now() + _period;
         const MethodScene::Frame frame = _scene.flyFrame(pose, _period.count());
-        add("missing_frames", frame.wanted > 0 ? 1U : 0U);
-        _times.push_back(frame.cullMs);
-        std::fprintf(stderr, "FR %s %zu %.3f %u\n", _scene.method().name.c_str(), _times.size(), frame.cullMs,
-                     (unsigned)frame.wanted);
-        add("drawn_tiles", _scene.census().tiles.size());
+        if (counts) {
+            add("missing_frames", frame.wanted > 0 ? 1U : 0U);
+            _times.push_back(frame.cullMs);
+            add("drawn_tiles", _scene.census().tiles.size());
+        }
         std::this_thread::sleep_until(end);
         return frame.wanted > 0;
     }
@@ -236,23 +236,27 @@ Measurement flyDrawn(const Settings& settings, const std::vector<CullMethod>& me
     return figuresOf(flights);
 }
 
+std::vector<flight::CameraPose> framesOf(const Settings& settings, const std::vector<flight::CameraPose>& path,
+                                         FileWatch& watch) {
+    if (settings.speed == 0.0) return flight::continuousPath(path, settings.frames);
+    const double radius = globeOf(settings, watch).radii().equatorialRadius();
+    return flight::flightsAhead(path, std::max(1, settings.frames / static_cast<int>(path.size())),
+                                settings.speed / settings.frameRate / radius);
+}
+
 }  // namespace
 
 Measurement fly(const Settings& settings, const std::vector<CullMethod>& methods,
-                const std::vector<flight::CameraPose>& path, const core::Ellipsoid& globe, FileWatch& watch) {
+                const std::vector<flight::CameraPose>& path, FileWatch& watch) {
     if (settings.jumps)
         return inTurns(settings, methods, watch, path.size(), 1, " jumps",
                        [&](Flight& flight, std::size_t pose) { flight.jumpTo(path[pose], settings.timeout); });
-    const bool isAhead = settings.speed > 0.0;
-    const int framesAhead = std::max(1, settings.frames / static_cast<int>(path.size()));
-    const double step = settings.speed / settings.frameRate / globe.equatorialRadius();
-    const std::vector<flight::CameraPose> frames =
-        isAhead ? flight::flightsAhead(path, framesAhead, step) : flight::continuousPath(path, settings.frames);
+    const std::vector<flight::CameraPose> frames = framesOf(settings, path, watch);
     if (settings.draw) return flyDrawn(settings, methods, frames, watch);
-    const std::size_t perTurn = isAhead ? static_cast<std::size_t>(framesAhead) : kFramesPerTurn;
+    const std::size_t perTurn = settings.speed > 0.0 ? frames.size() / path.size() : kFramesPerTurn;
     return inTurns(settings, methods, watch, frames.size(), perTurn, " frames", [&](Flight& flight, std::size_t begin) {
-        const std::size_t end = std::min(begin + perTurn, frames.size());
-        flight.takeTurn(&frames[begin], frames.data() + end, isAhead, settings.timeout);
+        if (settings.speed > 0.0) flight.load(frames[begin], settings.timeout);
+        flight.takeTurn(&frames[begin], frames.data() + std::min(begin + perTurn, frames.size()));
     });
 }
 

@@ -284,4 +284,11 @@ bool MethodScene::isReading() const {
     return pager().getFileRequestListSize() > 0 || isThreadBusy();
 }
 
+flight::Globe globeOf(const Settings& settings, FileWatch& watch) {
+    MethodScene scene(cullMethodFromName("sphere"), settings, watch);
+    scene.load();
+    scene.pause();
+    return scene.globe();
+}
+
 }  // namespace osgAnalyticBin::bench

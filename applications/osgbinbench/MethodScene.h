@@ -130,4 +130,7 @@ private:
 inline constexpr osg::CullSettings::CullingMode kDefaultCulling =
     osg::CullSettings::DEFAULT_CULLING & ~osg::CullSettings::SMALL_FEATURE_CULLING;
 
+/// The globe of the database. Throws: Failure when the database cannot be read.
+[[nodiscard]] flight::Globe globeOf(const Settings& settings, FileWatch& watch);
+
 }  // namespace osgAnalyticBin::bench

@@ -146,8 +146,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_flag("--jumps", settings.jumps,
                  "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
     app.add_option("--speed", settings.speed,
-                   "metres a second: flies straight ahead from each pose, once it is\nloaded, for its share of "
-                   "--frames (default: from pose to pose,\nhowever far apart they are)")
+                   "metres a second: flies straight ahead from each pose, once it is\n"
+                   "loaded, for its share of --frames (default: from pose to pose)")
         ->check(support::within(0.01, 1e6));
     app.add_option("--frame-rate", settings.frameRate,
                    "frames a second of flights and jumps at most, so that\nthe pager has time (default 60)")

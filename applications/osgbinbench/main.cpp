@@ -32,13 +32,6 @@ void shareMemoryAmongThreads() {
 #endif
 }
 
-osgAnalyticBin::flight::Globe globeOf(const Settings& settings, FileWatch& watch) {
-    MethodScene scene(cullMethodFromName("sphere"), settings, watch);
-    scene.load();
-    scene.pause();
-    return scene.globe();
-}
-
 std::vector<CameraPose> pathOf(const Settings& settings, FileWatch& watch) {
     if (settings.paths.empty()) return defaultPath(settings, watch);
     return osgAnalyticBin::flight::readCameraPathFiles(settings.paths, [&] { return globeOf(settings, watch); });
@@ -94,8 +87,7 @@ void measure(const Settings& settings) {
     const osg::ref_ptr<FileWatch> watch = new FileWatch;
     watch->install();
     const std::vector<CameraPose> path = pathOf(settings, *watch);
-    if (settings.jumps || settings.frames > 0)
-        return tell(settings, fly(settings, methods, path, globeOf(settings, *watch).radii(), *watch));
+    if (settings.jumps || settings.frames > 0) return tell(settings, fly(settings, methods, path, *watch));
     tellOfPoses(settings, path.size(), measureAtPoses(settings, methods, path, *watch));
 }
 

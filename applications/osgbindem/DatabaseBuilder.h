@@ -4,7 +4,6 @@
 #pragma once
 
 #include "DatabaseFolder.h"
-#include "DemMosaic.h"
 #include "ProgressLine.h"
 #include "Ranks.h"
 #include "Settings.h"

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Failure.h"
-#include "RasterGrid.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 

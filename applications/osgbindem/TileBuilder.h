@@ -8,7 +8,6 @@
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
-#include "Tile.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 

@@ -162,23 +162,22 @@ double mixed(double a, double b, double share) {
     return ratio > 0.0 ? a * std::pow(ratio, share) : a + (b - a) * share;
 }
 
+// Directions from the centre of a sphere.
+glm::dvec3 directionTo(const core::Geodetic& place) {
+    return core::Ellipsoid(1.0, 1.0).up(place.latitude, place.longitude);
+}
+core::Geodetic placeIn(const glm::dvec3& direction, double altitude) {
+    return {std::asin(std::clamp(direction.z, -1.0, 1.0)), std::atan2(direction.y, direction.x), altitude};
+}
+
 core::Geodetic mixed(const core::Geodetic& a, const core::Geodetic& b, double share) {
-    const core::Ellipsoid sphere(1.0, 1.0);
-    const glm::dvec3 from = sphere.up(a.latitude, a.longitude);
-    const glm::dvec3 to = sphere.up(b.latitude, b.longitude);
+    const glm::dvec3 from = directionTo(a), to = directionTo(b);
     const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
     const double sine = std::sin(angle);
     // Where the two ends coincide, or stand opposite each other, there is no one circle to follow.
     const glm::dvec3 v = sine > 1e-9 ? (std::sin((1.0 - share) * angle) * from + std::sin(share * angle) * to) / sine
                                      : (share < 0.5 ? from : to);
-    return {std::asin(std::clamp(v.z, -1.0, 1.0)), std::atan2(v.y, v.x), mixed(a.altitude, b.altitude, share)};
-}
-
-// Turned about an axis across it.
-core::Geodetic turned(const core::Geodetic& place, const glm::dvec3& axis, double angle) {
-    const glm::dvec3 from = core::Ellipsoid(1.0, 1.0).up(place.latitude, place.longitude);
-    const glm::dvec3 v = std::cos(angle) * from + std::sin(angle) * glm::cross(axis, from);
-    return {std::asin(std::clamp(v.z, -1.0, 1.0)), std::atan2(v.y, v.x), place.altitude};
+    return placeIn(v, mixed(a.altitude, b.altitude, share));
 }
 
 CameraPose mixed(const CameraPose& a, const CameraPose& b, double share) {
@@ -211,19 +210,19 @@ std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int 
 }
 
 std::vector<CameraPose> flightsAhead(const std::vector<CameraPose>& path, int frames, double step) {
-    constexpr double kSmall = 1e-12;
-    const core::Ellipsoid sphere(1.0, 1.0);
     std::vector<CameraPose> poses;
     for (const CameraPose& start : path) {
-        const glm::dvec3 eye = sphere.up(start.eye.latitude, start.eye.longitude);
-        const glm::dvec3 across = glm::cross(eye, sphere.up(start.look.latitude, start.look.longitude));
+        const glm::dvec3 across = glm::cross(directionTo(start.eye), directionTo(start.look));
         const glm::dvec3 west(std::sin(start.eye.longitude), -std::cos(start.eye.longitude), 0.0);
-        const glm::dvec3 axis = glm::length(across) > kSmall ? glm::normalize(across) : west;
+        const glm::dvec3 axis = glm::length(across) > 1e-12 ? glm::normalize(across) : west;
         for (int frame = 0; frame < frames; ++frame) {
+            const double sine = std::sin(frame * step), cosine = std::cos(frame * step);
             CameraPose pose = start;
             pose.name.clear();
-            pose.eye = turned(start.eye, axis, frame * step);
-            pose.look = turned(start.look, axis, frame * step);
+            for (core::Geodetic* const place : {&pose.eye, &pose.look}) {
+                const glm::dvec3 from = directionTo(*place);  // perpendicular to the axis
+                *place = placeIn(cosine * from + sine * glm::cross(axis, from), place->altitude);
+            }
             poses.push_back(pose);
         }
     }

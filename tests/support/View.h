@@ -31,7 +31,8 @@ struct View {
 [[nodiscard]] RealVector farthestPoint(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
                                        const RealVector& direction) noexcept;
 
-/// Whether the convex hull of the bin meets the frustum, by libccd's GJK. It is cut off behind the bin.
+/// Whether the convex hull of the bin meets the frustum, by libccd's GJK. What lies farther than the whole bin is cut
+/// off.
 [[nodiscard]] bool hullsMeet(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, const View& view);
 
 /// Whether the segment misses the ellipsoid scaled by 1 - depth / smaller radius (for negative depths: larger),
@@ -49,7 +50,8 @@ struct View {
 /// Just above the occluder, near the ground, over a pole, in orbit, up to 1e9 m away; seldom inside.
 [[nodiscard]] glm::dvec3 randomEye(Random& random, const core::Ellipsoid& ellipsoid, double depth) noexcept;
 
-/// A bin, a point of it or within the margin of one, and an eye that just sees it past the occluder, or just not.
+/// A bin, a point of it or within the margin of one, and an eye that sees the point just past the occluder, or nearly
+/// does.
 struct LineOfSight {
     core::Ellipsoid ellipsoid;
     core::GeodeticBin bin;

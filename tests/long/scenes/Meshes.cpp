@@ -26,7 +26,11 @@ class EmptyGeometry : public osg::Geometry {
 public:
     EmptyGeometry() = default;
     EmptyGeometry(const EmptyGeometry& other, const osg::CopyOp& copyop) : osg::Geometry(other, copyop) {}
-    META_Object(scenes, EmptyGeometry) void drawImplementation(osg::RenderInfo& /*info*/) const override {}
+    [[nodiscard]] osg::Object* cloneType() const override { return new EmptyGeometry; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new EmptyGeometry(*this, copyop);
+    }
+    void drawImplementation(osg::RenderInfo& /*info*/) const override {}
 };
 
 /// Fills a geometry with a grid of posts, and skirts below its border.

@@ -19,7 +19,8 @@
 
 namespace osgAnalyticBin::test {
 
-/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr without.
+/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr when there
+/// is none.
 [[nodiscard]] inline osg::Drawable* drawableOf(osg::Node& node) {
     if (osg::Drawable* drawable = node.asDrawable()) return drawable;
     if (auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {

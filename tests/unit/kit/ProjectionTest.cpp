@@ -111,7 +111,8 @@ const Kind kKinds[] = {
     {"orthographic, reversed depth", anyViewBy([](Random& random) { return reversed(randomOrtho(random, -5e7, 1e8)); }),
      NearPlane::AtPlusOne, false},
     {"orthographic, near beyond far", anyViewBy([](Random& random) { return randomOrtho(random, 1e8, -5e7); }),
-     NearPlane::AtMinusOne, false}};
+     NearPlane::AtMinusOne, false},
+};
 
 constexpr int kViews = 20;
 constexpr int kSides = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
@@ -262,11 +263,13 @@ const Kind kTrue[] = {
     {"eye in the centre", withView([](Random& random) {
          return osg::Matrixd::lookAt(osg::Vec3d(), osgVector(random.direction()), osgVector(random.direction()));
      })},
-    {"eye in a bin", [](const CameraGlobe& globe, Random& random) {
+    {"eye in a bin",
+     [](const CameraGlobe& globe, Random& random) {
          const osg::Vec3d eye = anySample(globe, random);
          return viewOf(osg::Matrixd::lookAt(eye, eye + osgVector(random.direction()), osgVector(random.direction())),
                        kPlain);
-     }}};
+     }},
+};
 
 // Cameras whose picture is in doubt, but not where their eye is.
 const std::vector<Kind> kWithEye{{"squares that underflow", withProjection(homogeneous(kPlain, 1e-161))},
@@ -292,9 +295,11 @@ const std::vector<Kind> kDoubtful{
          for (int row = 0; row < 3; ++row) view(row, 3) = random.uniform(-1e-6, 1e-6);
          return viewOf(view, kPlain);
      }},
-    {"negative homogeneous view", [](const CameraGlobe& globe, Random& random) {
+    {"negative homogeneous view",
+     [](const CameraGlobe& globe, Random& random) {
          return viewOf(homogeneous(viewAtSample(globe, random), -1.0), kPlain);
-     }}};
+     }},
+};
 
 std::vector<CullView> inAllModes(CullView view) {
     using Settings = osg::CullSettings;

@@ -20,7 +20,6 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
-#include <iterator>
 #include <optional>
 
 namespace osgAnalyticBin {
@@ -80,9 +79,7 @@ private:
         _mesh.x.insert(_mesh.x.end(), part.x.begin(), part.x.end());
         _mesh.y.insert(_mesh.y.end(), part.y.begin(), part.y.end());
         _mesh.z.insert(_mesh.z.end(), part.z.begin(), part.z.end());
-        _mesh.triangles.reserve(_mesh.triangles.size() + part.triangles.size());
-        std::transform(part.triangles.begin(), part.triangles.end(), std::back_inserter(_mesh.triangles),
-                       [first](std::uint32_t vertex) { return first + vertex; });
+        for (const std::uint32_t vertex : part.triangles) _mesh.triangles.push_back(first + vertex);
     }
 
     const TileMeshes& _meshes;
