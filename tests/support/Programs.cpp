@@ -39,8 +39,7 @@ Outcome runStock(const std::string& command, Modules modules, const std::string&
     std::string line = "env -u OSG_LIBRARY_PATH -u LD_LIBRARY_PATH " + environment;
     if (modules == Modules::Present) {
         line += " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER);
-        // The sanitizers, if our modules are built with them, have to come first; the stock program's leaks are not
-        // ours.
+        // sanitizers that our modules are built with have to come first; leaks of the stock program are not ours
         if (*PRELOAD_FILE) line += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=" + quoted(PRELOAD_FILE);
     }
     const TemporaryFolder folder;

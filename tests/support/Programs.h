@@ -42,8 +42,7 @@ struct Outcome {
 /// Whether xvfb-run is installed, which makes virtual displays.
 [[nodiscard]] bool hasDisplay();
 
-/// Runs a shell command on its own virtual display, for `seconds` at most. Returns: the exit code of the command, not
-/// that of xvfb-run.
+/// Runs a shell command on its own virtual display, for `seconds` at most. Returns: the exit code of the command.
 [[nodiscard]] Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment = {});
 
 [[nodiscard]] bool canRunViewer();

@@ -80,7 +80,12 @@ class CastingGroup : public osg::Group {
 public:
     CastingGroup() = default;
     CastingGroup(const CastingGroup& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
-    META_Object(scenes, CastingGroup) void traverse(osg::NodeVisitor& nv) override;
+    [[nodiscard]] osg::Object* cloneType() const override { return new CastingGroup; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new CastingGroup(*this, copyop);
+    }
+
+    void traverse(osg::NodeVisitor& nv) override;
 };
 
 /// Undoes what callbacks of kind Meddles did in the last traversal.

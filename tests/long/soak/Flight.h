@@ -140,8 +140,7 @@ private:
     std::vector<osg::ref_ptr<Reader>> _readers;
 };
 
-/// A viewer over databases, one of which stays from its beginning to its end, flown at random while everything that may
-/// change does.
+/// A viewer over databases, one of which stays to the end, flown at random while everything that may change does.
 class Flight {
 public:
     struct Setup {

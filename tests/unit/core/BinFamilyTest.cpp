@@ -24,8 +24,7 @@ struct Slot {
     bool hasHorizon;
 };
 
-/// Siblings, or bins of any kind beside each other, and planes about them. Masks have gaps, and slots are empty or
-/// cleared.
+/// Siblings, or bins of any kind side by side, and planes about them. Masks have gaps; slots are empty or cleared.
 struct FamilyCase {
     explicit FamilyCase(Random& random)
         : ellipsoid(randomEllipsoid(random)),

@@ -212,8 +212,7 @@ glm::dvec3 randomParameters(Random& random, const GeodeticBin& bin) {
 }
 
 TEST(GeodeticMapping, RemainderHolds) {
-    // The differences err by about 1e-7 of the differential, and by rounding: 1e-5 m at a reach of 0.01 radians,
-    // scaled to the box.
+    // Differences err by 1e-7 of the differential, and by rounding: 1e-5 m at 0.01 radians, scaled to the box.
     constexpr double kTruncation = 1e-6;
     Random random(42);
     for (int trial = 0; trial < 20000; ++trial) {

@@ -313,8 +313,7 @@ private:
     return {glm::length(scene.eye), kAcross, 0.0, 0.0, eyes};
 }
 
-/// How far eyes may be away from the scene's place, along each axis of the camera: farther ahead than aside, as of a
-/// camera that flies on.
+/// How far eyes may be from the scene's place, along each axis of the camera. A camera that flies moves more ahead.
 [[nodiscard]] inline glm::dvec3 randomEyes(Random& random, const OcclusionScene& scene) {
     const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
     const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
@@ -370,8 +369,7 @@ inline void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const Gr
     }
 }
 
-/// The quarters of all tiles and their parts, up to the tops of their meshes, the nearest first: so the buffer has to
-/// be asked.
+/// The quarters of all tiles and their parts, up to the tops of their meshes, the nearest first, as the buffer needs.
 [[nodiscard]] inline std::vector<OutlinedPart> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer) {
     std::vector<OutlinedPart> sorted;
     const core::Frame frame = frameOf(scene);

@@ -66,8 +66,7 @@ int expectBelowTops(Random& random, const Tile& tile, const EcefMesh& drawn, con
     return known;
 }
 
-// Counts the tops that are known, over many random tiles. `make(tile)` returns what is drawn, its plates, and the depth
-// of its skirts.
+// Counts the known tops of many random tiles. `make(tile)` returns what is drawn, its plates and its skirts' depth.
 template <class Make>
 int knownTops(Random& random, int trials, const Make& make) {
     int known = 0;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// The index that is made in the background; one beside the database, and what becomes of tiles that are no longer as it
-// knows them.
+// The index that is made in the background; one beside the database, and tiles that have changed since it was made.
 
 #include "KitTest.h"
 
@@ -281,8 +280,7 @@ TEST_F(AutoIndex, IsMadeWhereACallbackReadsFilesAsOsgDoes) {
 
 const std::string kStaleWarning = "is not as the index knows it";
 
-// The index of a database of 500 m beside it, without the files' times, as osgbinconv makes it; then, maybe, other
-// heights in the database.
+// A database of 500 m, its index, without the files' times, as osgbinconv makes it; then, maybe, other heights.
 class StaleIndex : public AutoIndex {
 protected:
     void writeAndOpen(double leafHeight, double singleHeight) {

@@ -66,8 +66,8 @@ struct Pair {
 // In the middle of the root tile, and at its border.
 const core::GeodeticBin kPlaces[] = {extentsDeg(20, 30, 10, 20), extentsDeg(10, 20, 30, 40)};
 
-// Nobody knows of those that are longer than the root tile's before the tile is there. Stored bins hold what leans out
-// of them at a border.
+// Skirts longer than the root tile's are unknown before their tile is read. Stored bins hold what leans out at a
+// border.
 TEST(Skirts, AreInTheBinsOfTheirTileAndOfThatAbove) {
     for (const auto& [place, isStored] :
          {std::pair(kPlaces[0], false), std::pair(kPlaces[0], true), std::pair(kPlaces[1], false)}) {
@@ -239,8 +239,11 @@ TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
 
 TEST(PlanarDatabase, TextTellsAMap) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
-    callback->setRadiiText("map");
-    EXPECT_EQ(callback->getRadiiText(), "map");
+    EXPECT_NE(callback->getRadiiText(), "map");
+    for (const char* const text : {"map", "6378137 6356752"}) {
+        callback->setRadiiText(text);
+        EXPECT_EQ(callback->getRadiiText(), text);
+    }
 }
 
 TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {

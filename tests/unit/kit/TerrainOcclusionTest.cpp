@@ -218,7 +218,7 @@ TEST(TerrainOcclusion, LeavesRoomForPixelsThatAreNotSquare) {
     }
 }
 
-// An application may say nothing of a change.
+// An application may change a mesh without announcing it.
 TEST(NearMeshes, AreReadAnewOnceTheyHaveChanged) {
     RidgeGlobe globe;
     installBins(*globe.root);

@@ -46,8 +46,7 @@ inline std::vector<TileCase> tileCases() {
             {"south", rect(-60, 10, -45, 40), 20, 20},        {"small", rect(47, 10, 47.01, 10.02), 64, 64}};
 }
 
-// A mesh as VirtualPlanetBuilder makes it: texture coordinates over the tile, skirts of one depth, in the frame of
-// its centre.
+// A mesh as VirtualPlanetBuilder makes it: texture coordinates, skirts of one depth, in the frame of its centre.
 struct VpbMesh {
     GeodeticBin extents;
     unsigned int posts = 17;

@@ -7,8 +7,6 @@
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <gtest/gtest.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/PagedLOD>
 #include <osgDB/Archive>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>

@@ -8,8 +8,6 @@
 #include <osgAnalyticBin/Declarations.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geode>
-#include <osg/Geometry>
 
 namespace osgAnalyticBin {
 namespace {
@@ -80,8 +78,7 @@ TEST_F(FrozenCamera, ComputesNearAndFarForTheFlyingView) {
     EXPECT_LT(_scene.nearPlane, _scene.farPlane);
 }
 
-// By its own view a camera is culled as without the callback: what is hidden where near and far planes are computed
-// does not depend on it.
+// A camera is culled by its own view as without the callback, also where near and far planes are computed.
 TEST(CameraCulling, IsDeclaredWhileTheCameraIsCulledByItsOwnView) {
     const osg::ref_ptr<osg::Camera> camera = new osg::Camera, other = new osg::Camera;
     CameraCulling& culling = CameraCulling::of(*camera);

@@ -233,8 +233,7 @@ TEST_F(Program, SaysWhatIsWrong) {
     expectError(test::runBench({database, "--path", path, "--vertical-scale", "2"}), "--vertical-scale: ");
 }
 
-// Databases of VirtualPlanetBuilder, and a camera path that was made for one of them. Skipped where the samples are
-// absent.
+// Databases of VirtualPlanetBuilder, and a camera path for one of them. Skipped where the samples are absent.
 class Vpb : public testing::Test {
 protected:
     void SetUp() override {

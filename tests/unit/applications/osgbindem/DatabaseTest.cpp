@@ -9,8 +9,6 @@
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
-#include <osg/Texture2D>
-
 #include <cstring>
 #include <set>
 #include <tuple>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Databases that are updated where their rasters have changed. Oracle: the database built anew from the same rasters,
-// byte for byte.
+// Databases that are updated where their rasters changed. Oracle: the database built anew from them, byte for byte.
 
 #include "RasterTest.h"
 

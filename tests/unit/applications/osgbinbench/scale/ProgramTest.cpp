@@ -5,7 +5,6 @@
 
 #include "BenchProgram.h"
 
-#include <osg/CoordinateSystemNode>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 

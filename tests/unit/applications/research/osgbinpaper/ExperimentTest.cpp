@@ -19,8 +19,7 @@
 
 namespace osgAnalyticBin::paper {
 
-/// A globe in a folder of its own, with mountains and seas that differ everywhere, from -6000 to 6000 m in whole
-/// metres.
+/// A globe in a folder of its own, with mountains and seas that differ everywhere, -6000 to 6000 m, whole metres.
 struct TestGlobe {
     [[nodiscard]] static double height(double latitudeDeg, double longitudeDeg) {
         const double p = glm::radians(latitudeDeg), l = glm::radians(longitudeDeg);
