@@ -20,16 +20,16 @@ namespace osgAnalyticBin {
 /// Keeps the meshes around an eye from frame to frame.
 class NearMeshes {
 public:
-    /// Returns: all triangles of a tile's own mesh, ECEF; null where the mesh cannot be read, or is one too many. They
-    /// do not change: other threads may keep them. Cost: the mesh is read when its tile was not asked for lately, when
-    /// a change of it was noticed, and after 16 uses at most.
+    /// Returns: all triangles of a tile's own mesh, ECEF; null where the mesh cannot be read, or would have to be
+    /// read beyond setMostReads(). They do not change: other threads may keep them. Cost: the mesh is read when its
+    /// tile was not asked for lately, when a change of it was noticed, and after 16 uses at most.
     [[nodiscard]] OSGANALYTICBIN_EXPORT std::shared_ptr<const core::EcefMesh> meshOf(
         const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
     /// More tiles are not kept.
     static constexpr std::size_t kMostTiles = 16;
 
-    /// From now on so many meshes are read, and no more: reading one takes as long as culling many tiles.
+    /// Limits how many meshes are read from now on. Reading one takes as long as culling many tiles.
     void setMostReads(std::size_t meshes) { _mostReads = meshes; }
 
 private:

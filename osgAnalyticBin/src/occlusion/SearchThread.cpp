@@ -14,9 +14,9 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// A thread that is woken after a rest may take the processor from the one that woke it, which is culling. Where the
-// system knows threads that do not, the calling thread is one from now on.
-void giveWayToOthers() {
+// Makes the calling thread a batch thread where the system has them: when it is woken, it does not preempt the thread
+// that woke it, which is culling.
+void becomeBatchThread() {
 #ifdef SCHED_BATCH
     const sched_param none{};
     (void)sched_setscheduler(0, SCHED_BATCH, &none);
@@ -52,7 +52,7 @@ std::future<FoundPtr> SearchThread::start(std::function<FoundPtr()> search) {
 }
 
 void SearchThread::run() {
-    giveWayToOthers();
+    becomeBatchThread();
     std::unique_lock<std::mutex> lock(_mutex);
     while (true) {
         _changed.wait(lock, [this] { return _isEnding || _next.valid(); });

@@ -295,7 +295,7 @@ public:
         }
         if (!_ahead.valid() && spanThen) {
             const int more = viewsLeft(*_found, view.eye, spanThen->across);
-            // as long as there is time, one mesh a view
+            // while there is time, one mesh is read in each view
             _nearMeshes.setMostReads(more > 0 ? 1 : NearMeshes::kMostTiles);
             const bool isNow = isDue(*_found, view);
             if (isNow || more < kForeseen) searchAhead(view, *lines, shown, spanThen, isNow ? 1 : more + 1);
