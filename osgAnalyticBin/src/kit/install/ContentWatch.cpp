@@ -3,41 +3,28 @@
 
 #include "ContentWatch.h"
 
-#include "../../core/EarthScale.h"
-#include "../CallbackChain.h"
 #include "../Classes.h"
-#include "../GlmBridge.h"
 #include "../PagedChildren.h"
 #include "../Spheres.h"
-#include "../cull/CullCallbacks.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../surface/SurfaceWalk.h"
-#include "../surface/TerrainTileSurface.h"
 #include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
+#include "ContentFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/TileSurface.h>
 
-#include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/Group>
-#include <osg/Image>
 #include <osg/LOD>
-#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
 #include <osg/Transform>
-#include <osgTerrain/Layer>
-#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <optional>
 
 namespace osgAnalyticBin {
@@ -49,135 +36,6 @@ const ContentWatch* watchOf(const osg::Node& node) {
     const auto* const callback = node.getComputeBoundingSphereCallback();
     if (!callback || isExactly<ContentWatch>(*callback)) return static_cast<const ContentWatch*>(callback);
     return dynamic_cast<const ContentWatch*>(callback);
-}
-
-// Whether a node is of one of the classes that most nodes are of. Models may have thousands of them.
-bool isOfCommonClass(const osg::Node& node) {
-    return isExactly<osg::Geometry>(node) || isExactly<osg::Geode>(node) || isExactly<osg::MatrixTransform>(node) ||
-           isExactly<osg::Group>(node);
-}
-
-const osgTerrain::TerrainTile* asTerrain(const osg::Node& node) {
-    return isOfCommonClass(node) ? nullptr : dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-}
-
-void mix(std::uint64_t& hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
-    hash ^= hash >> 29;
-}
-
-void mixFloat(std::uint64_t& hash, float value) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    mix(hash, std::uint64_t{bits});
-}
-
-void mixBound(std::uint64_t& hash, const osg::BoundingSphere& bound) {
-    for (const float value : {bound.center().x(), bound.center().y(), bound.center().z(), bound.radius()}) {
-        mixFloat(hash, value);
-    }
-}
-
-void mixFrame(std::uint64_t& hash, const osg::Transform& transform) {
-    osg::Matrixd matrix;
-    transform.computeLocalToWorldMatrix(matrix, nullptr);
-    for (int i = 0; i < 16; ++i) {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, matrix.ptr() + i, sizeof bits);
-        mix(hash, bits);
-    }
-}
-
-// Visits a mesh. Tiles inside look after themselves; a terrain tile draws nothing of what is below it.
-template <class Visit>
-void forEachPart(const osg::Node& node, const Visit& visit) {
-    visit(node);
-    if (watchOf(node) || asTerrain(node)) return;
-    const osg::Group* const group = node.asGroup();
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
-}
-
-// A number that changes when a transform is moved; 0 for other nodes.
-std::uint64_t frameOf(const osg::Node& node) {
-    std::uint64_t hash = 0;
-    if (const osg::Transform* const transform = node.asTransform()) mixFrame(hash, *transform);
-    return hash;
-}
-
-// Adds what decides whether the technique blends an osgTerrain tile.
-void mixBlending(std::uint64_t& hash, const osgTerrain::TerrainTile& tile) {
-    mix(hash, static_cast<std::uint64_t>(tile.getBlendingPolicy()));
-    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
-        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
-        const osg::Image* const image = layer ? layer->getImage() : nullptr;
-        mix(hash, reinterpret_cast<std::uintptr_t>(image));
-        mix(hash, std::uint64_t{image ? image->getModifiedCount() : 0});
-    }
-}
-
-// By what OSG tells that vertices and triangles have changed; of osgTerrain tiles, the heights and images.
-void mixSurface(std::uint64_t& hash, const osg::Node& part) {
-    if (const auto* const terrain = asTerrain(part)) {
-        mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
-        mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
-        mixBlending(hash, *terrain);
-    }
-    const auto* const billboard = isOfCommonClass(part) ? nullptr : dynamic_cast<const osg::Billboard*>(&part);
-    if (billboard) {
-        for (const osg::Vec3& position : billboard->getPositionList()) {
-            for (int axis = 0; axis < 3; ++axis) mixFloat(hash, position[axis]);
-        }
-    }
-    const osg::Geometry* const geometry = part.asGeometry();
-    const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
-    if (!vertices) return;
-    mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
-    mix(hash, std::uint64_t{vertices->getNumElements()});
-    mix(hash, std::uint64_t{vertices->getModifiedCount()});
-    for (const auto& primitives : geometry->getPrimitiveSetList()) {
-        mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
-        if (!primitives) continue;
-        mix(hash, std::uint64_t{primitives->getMode()});
-        mix(hash, std::uint64_t{primitives->getNumIndices()});
-        mix(hash, std::uint64_t{primitives->getModifiedCount()});
-    }
-}
-
-// Of vertices and triangles themselves: a new array may get the address of an old one.
-std::uint64_t contentOf(const osg::Node& mesh) {
-    return surfaceFingerprint(const_cast<osg::Node&>(mesh), osg::Matrixd());
-}
-
-// Of the bounds of what has no children, for vertices that moved without a word. Never 0.
-std::uint64_t boundsOf(const osg::Node& mesh) {
-    std::uint64_t hash = 1;
-    forEachPart(mesh, [&hash](const osg::Node& part) {
-        if (!part.asGroup()) mixBound(hash, part.getBound());
-    });
-    return hash | 1;
-}
-
-// The content as the box of latitudes, longitudes and altitudes about its sphere. Not valid: it has none.
-AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
-    const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
-    const double radius = sphere.radius() * 1.001;
-    if (ellipsoid.isPlane()) {
-        const double farthest = std::max(std::abs(center.x), std::abs(center.y)) + radius;
-        if (!(farthest <= core::Ellipsoid::kFarthestInMap)) return {};
-        const core::Geodetic low = ellipsoid.toGeodetic(center - radius), high = ellipsoid.toGeodetic(center + radius);
-        return AnalyticBin(core::GeodeticBin({low.latitude, high.latitude}, {low.longitude, high.longitude},
-                                             {low.altitude, high.altitude}));
-    }
-    const core::Geodetic middle = ellipsoid.toGeodetic(center);
-    const double fromAxis = std::hypot(center.x, center.y);
-    // from the nearest centre of curvature
-    const double fromCurvature = core::smallestCurvatureRadius(ellipsoid) + middle.altitude - radius;
-    if (!std::isfinite(fromAxis + radius) || !(fromCurvature > radius) || !(fromAxis > radius)) return {};
-    const double north = std::asin(radius / fromCurvature);
-    const double east = std::asin(radius / fromAxis);
-    return AnalyticBin(core::GeodeticBin({middle.latitude - north, middle.latitude + north},
-                                         {middle.longitude - east, middle.longitude + east},
-                                         {middle.altitude - radius, middle.altitude + radius}));
 }
 
 // Whether a node is in the scene of a database.
@@ -192,107 +50,6 @@ bool isBelowDatabase(const osg::Node& node) {
 bool isInTile(const osg::Node& node) {
     return installedTileOf(node) || std::any_of(node.getParents().begin(), node.getParents().end(),
                                                 [](const osg::Group* parent) { return isInTile(*parent); });
-}
-
-// Content below tiles, as it is passed up from one tile to the next.
-class Content {
-public:
-    // `isMerged`: below a database, which expands bins that do not hold it. Otherwise their tiles stay visible.
-    Content(osg::Node& node, const osg::BoundingSphere& sphere, bool isMerged)
-        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere), _isMerged(isMerged) {}
-
-    // Goes from the frame inside a transform to the one outside.
-    void leave(const osg::Transform& transform) {
-        osg::Matrixd matrix;
-        transform.computeLocalToWorldMatrix(matrix, nullptr);
-        _sphere = movedSphere(_sphere, matrix);
-        _about.reset();
-        _toHere = _toHere * matrix;
-    }
-
-    void fitInto(const AnalyticBinCullCallback& callback) {
-        InstalledTile* const tile = callback.getInstalledTile();
-        if (!tile || !callback.getBin().valid()) return;
-        const unsigned int reasons = reasonsAbove(drawn(callback));
-        tile->doubt(reasons);
-        if (reasons & InstalledTile::NeverCulled) return;
-        const bool isOther = !isOfSameShape(callback.getTerrainShape());
-        const osg::EllipsoidModel& model = *tile->database().ellipsoid();
-        const AnalyticBin& about = aboutOn(model, callback.getLocalToEcef());
-        if (!isOther && isHeld(about, about.sag(), callback.getBin())) return;
-        const TileSurface& surface = surfaceOn(model, callback.getLocalToEcef());
-        const bool areSkirtsCounted = surface.skirt <= callback.getSkirt();
-        const AnalyticBin own = areSkirtsCounted ? surface.bin : surface.bin.withSkirts(surface.skirt);
-        const AnalyticBin& bin = callback.getBin();
-        if (!isOther && (_isTerrain ? bin.contains(own) : isHeld(own, surface.bin.sag(), bin))) return;
-        const AnalyticBin& content = own.valid() ? own : about;
-        if (_isMerged) {
-            Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
-        } else {
-            tile->doubt(InstalledTile::Outgrown);
-        }
-    }
-
-private:
-    // Bins are those of the terrain before it is exaggerated. So is what is known of osgTerrain tiles, and nothing
-    // else.
-    [[nodiscard]] bool isOfSameShape(const std::optional<TerrainShape>& shape) const {
-        if (!_isTerrain) return !shape || shape->verticalScale == 1.0;
-        if (!shape) return false;
-        TerrainShape whole;
-        whole.verticalScale = shape->verticalScale;
-        return *shape == whole;
-    }
-
-    [[nodiscard]] const DrawnState& drawn(const AnalyticBinCullCallback& tile) {
-        if (!_drawn) _drawn = drawnStateBelow(_node, {tile.getCullOptions().plainShaders});
-        return *_drawn;
-    }
-
-    // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
-    static bool isHeld(const AnalyticBin& content, double sag, const AnalyticBin& bin) {
-        if (!content.valid()) return false;
-        const core::Interval& altitude = content.bin().altitude();
-        const double posts = std::min(altitude.lower + sag, altitude.upper);
-        const core::Interval room{bin.bin().altitude().lower - bin.margin(), bin.bin().altitude().upper + bin.margin()};
-        return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
-    }
-
-    // Computed once for all tiles in the same frame.
-    const AnalyticBin& aboutOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
-        if (!_about || localToEcef != _aboutToEcef) _about = binAbout(movedSphere(_sphere, localToEcef), toCore(model));
-        _aboutToEcef = localToEcef;
-        return *_about;
-    }
-
-    // Read once, for all tiles above, unless a transform in between has moved since bins were installed.
-    const TileSurface& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
-        const osg::Matrixd toEcef = _toHere * localToEcef;
-        if (!_surface || toEcef != _toEcef) _surface = tileSurface(_node, model, toEcef);
-        _toEcef = toEcef;
-        return *_surface;
-    }
-
-    osg::Node& _node;
-    bool _isTerrain;
-    osg::BoundingSphere _sphere;
-    bool _isMerged;
-    osg::Matrixd _toHere;
-    std::optional<AnalyticBin> _about;
-    osg::Matrixd _aboutToEcef;  // that it was found with
-    std::optional<TileSurface> _surface;
-    osg::Matrixd _toEcef;  // that the surface was read with
-    std::optional<DrawnState> _drawn;
-};
-
-// Looks whether all tiles from the node upwards hold what stands among the node's children.
-void fitIntoTilesFrom(const osg::Node& node, Content content) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (isExactly<AnalyticBinCullCallback>(*at))
-            content.fitInto(*static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback()));
-    }
-    if (node.asTransform()) content.leave(*node.asTransform());
-    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
 // About what a tile's bin holds, in the frame above the tile. Not valid: it is not known.
@@ -400,7 +157,7 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     const auto add = [&watch](const osg::Node& mesh) {
-        watch->_fitted.push_back({&mesh, stateOf(mesh), contentOf(mesh), 0});
+        watch->_fitted.push_back({&mesh, MeshState::of(mesh), contentOf(mesh), 0});
     };
     for (const auto& mesh : fitted) {
         const osg::Group* const group = mesh == &node && !asTerrain(node) ? node.asGroup() : nullptr;
@@ -410,16 +167,6 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
     node.dirtyBound();
-}
-
-ContentWatch::State ContentWatch::stateOf(const osg::Node& mesh) {
-    State state;
-    forEachPart(mesh, [&state](const osg::Node& part) {
-        mix(state.parts, reinterpret_cast<std::uintptr_t>(&part));
-        if (part.asTransform()) mixFrame(state.frames, *part.asTransform());
-        mixSurface(state.surfaces, part);
-    });
-    return state;
 }
 
 void ContentWatch::remove(osg::Node& node) {
@@ -478,7 +225,7 @@ const ContentWatch::Fitted* ContentWatch::fittedOf(const osg::Node& child, std::
 // bounds are not computed before OSG does so: it may crash on those of broken meshes
 bool ContentWatch::isFitted(const osg::Node& child, std::size_t slot, bool withBounds, bool withContent) const {
     const Fitted* const known = fittedOf(child, slot);
-    if (!known || !(known->state == stateOf(child))) return false;
+    if (!known || !(known->state == MeshState::of(child))) return false;
     if (withContent && known->content != contentOf(child)) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
@@ -489,7 +236,7 @@ bool ContentWatch::isFitted(const osg::Node& child, std::size_t slot, bool withB
 bool ContentWatch::isPartMoved(const osg::Group& group) const {
     for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
         const Fitted* const fitted = fittedOf(*group.getChild(i), i);
-        const State now = fitted ? stateOf(*fitted->node) : State();
+        const MeshState now = fitted ? MeshState::of(*fitted->node) : MeshState();
         if (fitted && now.parts == fitted->state.parts && now.frames != fitted->state.frames) return true;
     }
     return false;
@@ -504,12 +251,12 @@ bool ContentWatch::isMerged(const osg::Node& node) const {
 // OSG does not tell of changes below a child whose bound the application has computed since.
 bool ContentWatch::isHeld(unsigned int i, const osg::Node& child) const {
     return i < _held.size() && _held[i].node.get() == &child && _held[i].sphere == child.getBound() &&
-           _held[i].state == stateOf(child);
+           _held[i].state == MeshState::of(child);
 }
 
 void ContentWatch::noteHeld(unsigned int i, const osg::Node& child) const {
     if (i >= _held.size()) _held.resize(i + 1);
-    _held[i] = {&child, child.getBound(), stateOf(child)};
+    _held[i] = {&child, child.getBound(), MeshState::of(child)};
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -560,7 +307,7 @@ void ContentWatch::check(const osg::Node& node) const {
         if (!sphere.valid() && !isNeverCulled(child)) continue;
         hasMore = hasMore || (!isLevel && isMergedNow());
         if (isUnchanged) continue;
-        fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMergedNow()));
+        fitIntoTilesFrom(node, const_cast<osg::Node&>(child), sphere, isMergedNow());
         if (isMergedNow()) noteHeld(i, child);
     }
     // a level may be shown in place of those that were read
@@ -569,7 +316,7 @@ void ContentWatch::check(const osg::Node& node) const {
     if (hasMore) noteMoreThanMesh(node);
     if (group || _fitted.empty() || isFitted(node, 0, true, false)) return;
     // an osgTerrain tile that has other heights
-    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), isMergedNow()));
+    fitIntoTilesFrom(node, const_cast<osg::Node&>(node), boundOf(node), isMergedNow());
     if (isMergedNow()) doubtMeshOf(node, false);
 }
 

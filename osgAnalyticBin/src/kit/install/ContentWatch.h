@@ -5,6 +5,7 @@
 
 #include "../tile/BoundWatch.h"
 #include "../tile/InstalledTile.h"
+#include "MeshState.h"
 
 #include <osgAnalyticBin/Export.h>
 
@@ -57,18 +58,9 @@ protected:
     ~ContentWatch() override = default;
 
 private:
-    // Hashes of a mesh.
-    struct State {
-        std::uint64_t parts = 1;     // changes when a part is added, removed or replaced
-        std::uint64_t frames = 1;    // changes when a part is moved
-        std::uint64_t surfaces = 1;  // changes when vertices or triangles are said to have changed
-        [[nodiscard]] bool operator==(const State& other) const {
-            return parts == other.parts && frames == other.frames && surfaces == other.surfaces;
-        }
-    };
     struct Fitted {
         const osg::Node* node;
-        State state;
+        MeshState state;
         std::uint64_t content;
         mutable std::uint64_t bounds;  // 0: not known yet
     };
@@ -76,10 +68,8 @@ private:
     struct Held {
         osg::observer_ptr<const osg::Node> node;  // another one may get its address
         osg::BoundingSphere sphere;
-        State state;
+        MeshState state;
     };
-
-    [[nodiscard]] static State stateOf(const osg::Node& mesh);
 
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
