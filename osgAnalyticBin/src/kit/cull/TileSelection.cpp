@@ -96,11 +96,12 @@ TileSelection::Number TileSelection::find(const TileFamily& family, core::PlaneM
 
 void TileSelection::hold() {
     for (; _heldFamilies < _families.size(); ++_heldFamilies) _held.emplace_back(_families[_heldFamilies]);
-    for (; _heldPlaces < _places.size(); ++_heldPlaces) {
-        _held.emplace_back(_places[_heldPlaces].node);
-        _held.emplace_back(_places[_heldPlaces].state);
-    }
     // families hold their tiles, and these their meshes
+    for (; _heldPlaces < _places.size(); ++_heldPlaces) {
+        const Place& place = _places[_heldPlaces];
+        if (!place.paged) _held.emplace_back(place.node);
+        if (place.state) _held.emplace_back(place.state);
+    }
     for (; _heldKept < _kept.size(); ++_heldKept) {
         if (_kept[_heldKept].way == Way::Plain) _held.emplace_back(_kept[_heldKept].node);
     }
