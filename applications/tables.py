@@ -10,8 +10,8 @@ import json
 import sys
 from pathlib import Path
 
-OFF, ON, OBB = "quadratic+horizon+edges", "quadratic+horizon+edges+occlusion", "orientedbox+horizon+edges"
-LABELS = {"sphere": "sphere", "cluster": "cluster", OBB: "obb", OFF: "bins off", ON: "on", "bins": "auto"}
+OFF, OBB = "quadratic+horizon+edges", "orientedbox+horizon+edges"
+LABELS = {"sphere": "sphere", "cluster": "cluster", OFF: "bins off", "bins": "auto"}
 
 
 class Sums:
@@ -60,8 +60,8 @@ def high_views(sums):
                 for column in ("cull_ms", "cull_cold_ms")])
 
 
-def low_views(sums, methods):
-    labels = [LABELS[method] for method in methods]
+def low_views(sums):
+    methods, labels = list(LABELS), list(LABELS.values())
     yield (["path", "needed", "visible"] + [f"drawn: {label}" for label in labels] +
            [f"files: {label}" for label in labels] + [f"cull: {label}" for label in labels[1:]])
     for path, of in sums.items():
@@ -128,8 +128,8 @@ def main():
     high, low, region = (sums_by_path(figures / f"{name}.csv") for name in ("paths", "low", "region"))
     tables = {
         "paths": high_views(high),
-        "low_views": low_views(low, ["sphere", "cluster", OBB, OFF, ON, "bins"]),
-        "region": low_views(region, ["sphere", "cluster", OFF, "bins"]),
+        "low_views": low_views(low),
+        "region": low_views(region),
         "frames": frames(figures),
         "jumps": jumps(figures),
         "scale": scale(figures),
