@@ -6,6 +6,8 @@
 #include "Failure.h"
 #include "Quantiles.h"
 
+#include <osgDB/DatabasePager>
+
 #include <optional>
 #include <utility>
 
@@ -37,15 +39,14 @@ CullTime timeOf(std::vector<double> times) {
 /// The traversals of one scene, as those of a viewer that stands still.
 class Turns {
 public:
-    explicit Turns(MethodScene& scene)
-        : _scene(scene),
-          _frameStamp(new osg::FrameStamp(scene.frameStamp())),
-          // A file asked for here would be read behind the benchmark's back.
-          _requests(new flight::RequestCounter) {}
+    explicit Turns(MethodScene& scene) : _scene(scene), _frameStamp(new osg::FrameStamp(scene.frameStamp())) {
+        // A file asked for here would be read behind the benchmark's back.
+        _pager->setAcceptNewDatabaseRequests(false);
+    }
 
     // `memory`: empty where this turn does not time cold caches.
     void take(std::vector<unsigned char>& memory) {
-        if (_turns++ % kTurnsOfVisitor == 0) _stage.emplace(*_requests);
+        if (_turns++ % kTurnsOfVisitor == 0) _stage.emplace(*_pager);
         for (int i = 0; i < kUntimedPerTurn; ++i) (void)nextMs();
         for (int i = 0; i < kTimedPerTurn; ++i) _warm.push_back(nextMs());
         if (memory.empty()) return;
@@ -64,7 +65,7 @@ private:
 
     MethodScene& _scene;
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
-    osg::ref_ptr<flight::RequestCounter> _requests;
+    osg::ref_ptr<osgDB::DatabasePager> _pager = new osgDB::DatabasePager;
     std::optional<flight::CullStage> _stage;
     int _turns = 0;
     std::vector<double> _warm;

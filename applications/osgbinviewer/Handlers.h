@@ -50,8 +50,7 @@ private:
 /// A handler of keys of osgbinviewer's own; a view has one of each kind. In the help they come before OSG's.
 class KeyHandler : public osgGA::GUIEventHandler {
 public:
-    /// Handles the keys that no other handler has taken, and calls draw() at every frame. Returns: whether the event is
-    /// handled.
+    /// Handles keys that no other handler has taken, and calls draw() in each frame. Returns: whether it was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override {
         auto* const view = dynamic_cast<osgViewer::View*>(action.asView());
         if (!view || !view->getSceneData()) return false;

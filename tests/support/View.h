@@ -31,8 +31,7 @@ struct View {
 [[nodiscard]] RealVector farthestPoint(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
                                        const RealVector& direction) noexcept;
 
-/// Whether the convex hull of the bin meets the frustum, by libccd's GJK. What lies farther than the whole bin is cut
-/// off.
+/// Whether the convex hull of the bin meets the frustum, by libccd's GJK. What lies behind the whole bin is cut off.
 [[nodiscard]] bool hullsMeet(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, const View& view);
 
 /// Whether the segment misses the ellipsoid scaled by 1 - depth / smaller radius (for negative depths: larger),

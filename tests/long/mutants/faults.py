@@ -965,6 +965,8 @@ FAULTS = [
           "return traversalMask == other.traversalMask && maskOverride", "return maskOverride", NODE, "Selection.*"),
     Fault("selection: what holds for a scale of levels holds for others", "src/kit/cull/TileSelection.cpp",
           "lodScale == other.lodScale;", "(lodScale == other.lodScale || true);", NODE, "Selection.*"),
+    Fault("selection: tiles that wait are without callbacks", "src/kit/cull/SelectionDrawing.cpp",
+          "!kept.member->isMeshAlone(*kept.node, *_cullVisitor)", "false", NODE, "Selection.*"),
     Fault("selection: nothing is held", "src/kit/cull/SelectionDrawing.cpp", "_selection.hold();", "", NODE, "Selection.*"),
     Fault("selection: masks that callbacks set are not asked", "src/kit/cull/SelectionDrawing.cpp",
           "if (_isEntered && isMasked(kept)) return;", "(void)&SelectionDrawing::isMasked;", SCENES, f"{NAMED}/meddling-masks.scene"),

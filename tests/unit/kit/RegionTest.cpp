@@ -66,8 +66,7 @@ struct Pair {
 // In the middle of the root tile, and at its border.
 const core::GeodeticBin kPlaces[] = {extentsDeg(20, 30, 10, 20), extentsDeg(10, 20, 30, 40)};
 
-// Skirts longer than the root tile's are unknown before their tile is read. Stored bins hold what leans out at a
-// border.
+// Skirts longer than the root tile's are unknown before their tile is read. Stored bins hold what leans outward.
 TEST(Skirts, AreInTheBinsOfTheirTileAndOfThatAbove) {
     for (const auto& [place, isStored] :
          {std::pair(kPlaces[0], false), std::pair(kPlaces[0], true), std::pair(kPlaces[1], false)}) {

@@ -35,19 +35,23 @@ TEST(Selection, GoesOnWithoutAStateThatWasTakenAwayMeanwhile) {
     EXPECT_TRUE(globe.shows(tile));
 }
 
+// By the callback of a model, or of the mesh of a tile that waits for its finer level.
 TEST(Selection, HoldsWhatIsTakenAwayMeanwhile) {
-    ModelGlobe globe;
-    installBins(*globe.root);
-    const osg::observer_ptr<osg::Group> last = globe.last.get();
-    globe.last = nullptr;
-    bool isHeld = false;
-    globe.first->setCullCallback(new Before([&](auto&) {
-        if (last.valid()) globe.root->removeChild(last.get());
-        isHeld = last.valid();
-    }));
-    EXPECT_TRUE(globe.shows(*globe.tiles[19]));
-    EXPECT_TRUE(isHeld);
-    EXPECT_FALSE(last.valid());
+    for (const bool isTile : {false, true}) {
+        ModelGlobe globe;
+        setFinerWithin(*globe.tiles[18], 1e8f);
+        if (isTile) globe.root->removeChild(globe.first);
+        installBins(*globe.root);
+        const osg::observer_ptr<osg::Group> last = globe.last.get();
+        globe.last = nullptr;
+        bool isHeld = false;
+        (isTile ? *globe.tiles[18]->getChild(0) : *globe.first).setCullCallback(new Before([&](auto&) {
+            if (last.valid()) globe.root->removeChild(last.get());
+            isHeld = last.valid();
+        }));
+        EXPECT_TRUE(globe.shows(*globe.tiles[19]));
+        EXPECT_TRUE(isHeld && !last.valid());
+    }
 }
 
 // Callbacks that promise to traverse are run after it, too.

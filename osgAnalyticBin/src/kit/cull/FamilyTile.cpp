@@ -385,6 +385,11 @@ bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
     return _isOwnMesh || (_parts.front().kind == Kind::Terrain && isPassive(*_parts.front().node, visitor));
 }
 
+bool FamilyTile::isMeshAlone(const osg::Node& tile, const osgUtil::CullVisitor& visitor) const {
+    return _paged && _isPossible && _areClassesKnown && isAlone(tile, visitor) && _paged->getNumChildren() == 1 &&
+           isMesh(*_paged->getChild(0)) && isMeshAsKnown(visitor, visitor);
+}
+
 void FamilyTile::noteMesh(Footprint::Notes& notes) const {
     for (std::size_t i = 0; i < _count; ++i) {
         const osg::Node& node = *_parts[i].node;

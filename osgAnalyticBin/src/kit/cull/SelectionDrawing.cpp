@@ -99,6 +99,7 @@ public:
         : _selection(*view.selection),
           _visitor(view.visitor),
           _traversal(view.traversal),
+          _pager(view.pager),
           _gain(view.gain),
           _cullVisitor(isExactly<osgUtil::CullVisitor>(_visitor) ? _visitor.asCullVisitor() : nullptr),
           _cullStack(view.cullStack),
@@ -158,14 +159,22 @@ private:
             places.setState(kept.place);
             if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return static_cast<void>(++_direct);
         }
-        _selection.hold();
-        _isEntered = true;
+        if (!isOsgAlone(kept)) {
+            _selection.hold();
+            _isEntered = true;
+        }
         places.enter(kept.place);
         setUndecided(frustum(), undecided);
         const PlanesBelow planes(_cullStack, undecided);
         std::optional<NoRequests> withoutFiles;
         if (kept.waits) withoutFiles.emplace(_visitor);
         enter(kept);
+    }
+
+    // Whether nothing of the application's runs in a node that is entered: a tile that at most waits for finer ones.
+    [[nodiscard]] bool isOsgAlone(const TileSelection::Kept& kept) const {
+        if (kept.way != Way::Untested || !kept.member->isMeshAlone(*kept.node, *_cullVisitor)) return false;
+        return kept.waits || _visitor.getDatabaseRequestHandler() == _pager;
     }
 
     // A callback of the application's may have set masks since they were asked. Those of places are asked once for all
@@ -202,13 +211,14 @@ private:
     TileSelection& _selection;
     osg::NodeVisitor& _visitor;
     CullTraversal& _traversal;
+    const osg::Referenced* const _pager;       // null: another than OSG's is asked for files, or none
     Gain* const _gain;                         // null: not counted
     osgUtil::CullVisitor* const _cullVisitor;  // null: a visitor of another class
     osg::CullStack& _cullStack;
     const bool _canDraw;
     core::PlaneMask _limit = 0;
     unsigned int _direct = 0;  // drawn
-    bool _isEntered = false;   // by OSG, where the application may change what comes later
+    bool _isEntered = false;   // a node where the application may change what comes later
     Number _lastPlace = TileSelection::kNone;
     bool _isLastMasked = false;
 };

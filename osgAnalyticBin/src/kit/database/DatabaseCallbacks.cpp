@@ -15,6 +15,7 @@
 
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
+#include <osgDB/DatabasePager>
 #include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
@@ -161,6 +162,8 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       &traversal.selection(),
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
+    const auto* const files = nv.getDatabaseRequestHandler();
+    if (files && isExactly<osgDB::DatabasePager>(*files)) view.pager = files;
     Gain gain;
     if (turn == DatabaseRest::Turn::BinsCounted) view.gain = &gain;
     view.isCold = _database->isCold();
