@@ -15,12 +15,12 @@
 #include <osgUtil/PositionalStateContainer>
 #include <osgUtil/UpdateVisitor>
 
+#include <functional>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
 
-/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr when there
-/// is none.
+/// The first drawable below a node; of osgTerrain tiles, as their technique made it last. Returns: nullptr if none.
 [[nodiscard]] inline osg::Drawable* drawableOf(osg::Node& node) {
     if (osg::Drawable* drawable = node.asDrawable()) return drawable;
     if (auto* const tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
@@ -69,7 +69,9 @@ struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
         files.insert(file);
         nodes.insert(path.back());
         if (!request) request = new osg::Referenced;
+        action();
     }
+    std::function<void()> action = [] {};
     std::set<std::string> files;
     std::set<const osg::Node*> nodes;
 };

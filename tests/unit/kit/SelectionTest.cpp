@@ -35,20 +35,31 @@ TEST(Selection, GoesOnWithoutAStateThatWasTakenAwayMeanwhile) {
     EXPECT_TRUE(globe.shows(tile));
 }
 
-// By the callback of a model, or of the mesh of a tile that waits for its finer level.
+// By the callback of a model, of the mesh of a tile that waits for its finer level, or of the root; or by who is asked
+// for the file.
 TEST(Selection, HoldsWhatIsTakenAwayMeanwhile) {
-    for (const bool isTile : {false, true}) {
+    enum { Model, Mesh, Root, File };
+    for (const int where : {Model, Mesh, Root, File}) {
         ModelGlobe globe;
-        setFinerWithin(*globe.tiles[18], 1e8f);
-        if (isTile) globe.root->removeChild(globe.first);
-        installBins(*globe.root);
+        osg::PagedLOD& tile = *globe.tiles[18];
+        setFinerWithin(tile, 1e8f);
+        if (where != Model) globe.root->removeChild(globe.first);
         const osg::observer_ptr<osg::Group> last = globe.last.get();
         globe.last = nullptr;
         bool isHeld = false;
-        (isTile ? *globe.tiles[18]->getChild(0) : *globe.first).setCullCallback(new Before([&](auto&) {
+        const auto takeAway = [&](auto&&...) {
             if (last.valid()) globe.root->removeChild(last.get());
             isHeld = last.valid();
-        }));
+        };
+        const osg::ref_ptr<Before> callback = new Before(takeAway);
+        setTraversesAlways(*callback);
+        if (where == Root) globe.root->setCullCallback(callback);
+        installBins(*globe.root);
+        if (where == Model) globe.first->setCullCallback(callback);
+        if (where == Mesh) tile.getChild(0)->setCullCallback(callback);
+        const osg::ref_ptr<Requests> requests = new Requests;
+        if (where == File) requests->action = takeAway;
+        globe.visitor->setDatabaseRequestHandler(requests);
         EXPECT_TRUE(globe.shows(*globe.tiles[19]));
         EXPECT_TRUE(isHeld && !last.valid());
     }

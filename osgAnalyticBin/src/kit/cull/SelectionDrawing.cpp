@@ -154,15 +154,12 @@ private:
 
     void draw(const TileSelection::Kept& kept, Places& places) {
         const core::PlaneMask undecided = kept.undecided & _limit;
-        if (_isEntered && isMasked(kept)) return;
+        if (_selection.isHeld() && isMasked(kept)) return;
         if (kept.way == Way::Mesh) {
             places.setState(kept.place);
             if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return static_cast<void>(++_direct);
         }
-        if (!isOsgAlone(kept)) {
-            _selection.hold();
-            _isEntered = true;
-        }
+        if (!isOsgAlone(kept)) _selection.hold();
         places.enter(kept.place);
         setUndecided(frustum(), undecided);
         const PlanesBelow planes(_cullStack, undecided);
@@ -171,7 +168,7 @@ private:
         enter(kept);
     }
 
-    // Whether nothing of the application's runs in a node that is entered: a tile that at most waits for finer ones.
+    // Whether OSG runs no code of the application's in the node: a tile where it does nothing but ask for a file.
     [[nodiscard]] bool isOsgAlone(const TileSelection::Kept& kept) const {
         if (kept.way != Way::Untested || !kept.member->isMeshAlone(*kept.node, *_cullVisitor)) return false;
         return kept.waits || _visitor.getDatabaseRequestHandler() == _pager;
@@ -218,7 +215,6 @@ private:
     const bool _canDraw;
     core::PlaneMask _limit = 0;
     unsigned int _direct = 0;  // drawn
-    bool _isEntered = false;   // a node where the application may change what comes later
     Number _lastPlace = TileSelection::kNone;
     bool _isLastMasked = false;
 };

@@ -31,6 +31,7 @@ void TileSelection::clear() {
     _families.clear();
     _held.clear();
     _heldFamilies = _heldPlaces = _heldKept = 0;
+    _isHeld = false;
     _occluded.clear();
     _next = 0;
 }
@@ -95,6 +96,7 @@ TileSelection::Number TileSelection::find(const TileFamily& family, core::PlaneM
 }
 
 void TileSelection::hold() {
+    _isHeld = true;
     for (; _heldFamilies < _families.size(); ++_heldFamilies) _held.emplace_back(_families[_heldFamilies]);
     // families hold their tiles, and these their meshes
     for (; _heldPlaces < _places.size(); ++_heldPlaces) {

@@ -114,9 +114,16 @@ public:
     /// used; OSG may have found the sphere of a group inside some of the others. Returns: kNone where there is none.
     [[nodiscard]] Number find(const TileFamily& family, core::PlaneMask undecided);
 
-    /// Holds references to all that the selection points to, until it is cleared. Call before nodes are entered: an
-    /// application may remove others there.
+    /// Holds references to all that the selection points to, until it is cleared. Call before code of an application
+    /// may run: it may remove nodes.
     void hold();
+    /// Whether such code may have run since the selection began.
+    [[nodiscard]] bool isHeld() const { return _isHeld; }
+
+    /// Whether all that is selected is below the group of this family.
+    [[nodiscard]] bool isAllBelow(const TileFamily& family) const {
+        return !_segments.empty() && _segments.front().family == &family;
+    }
 
 private:
     Conditions _conditions;
@@ -127,6 +134,7 @@ private:
     std::vector<const osg::Referenced*> _families;
     std::vector<osg::ref_ptr<const osg::Referenced>> _held;
     std::size_t _heldFamilies = 0, _heldPlaces = 0, _heldKept = 0;  // how many they are for
+    bool _isHeld = false;
     // Sorted when the first tile is asked for: few are tested alone.
     std::vector<const AnalyticBinCullCallback*> _occluded;
     bool _isSorted = true;

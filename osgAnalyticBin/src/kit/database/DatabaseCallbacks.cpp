@@ -10,6 +10,7 @@
 #include "../cull/CullScopes.h"
 #include "../cull/CullTraversal.h"
 #include "../cull/DrawnState.h"
+#include "../cull/TileFamily.h"
 #include "../tile/BoundWatch.h"
 #include "HiddenInView.h"
 
@@ -89,6 +90,12 @@ void takeOffUpdate(osg::Node& node, const osg::ref_ptr<osg::Callback>& update) {
     constexpr int kOwn = 2;  // references: the node's and the caller's
     if (isFirst && update->referenceCount() > kOwn) return node.setUpdateCallback(nested.get());
     node.removeUpdateCallback(update.get());
+}
+
+// Whether the callback behind that of the database draws all that is selected, before code of the application's runs.
+bool isDrawnNext(const TileSelection& selection, const osg::Callback* next) {
+    const auto* const family = dynamic_cast<const TileFamily*>(next);
+    return family && !family->getNestedCallback() && selection.isAllBelow(*family);
 }
 
 }  // namespace
@@ -174,6 +181,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                                     : findHidden(view, *_database, options, isAltered(nv.getNodePath()));
     // callbacks of the application's run before what is drawn is selected then
     if (!hidden.isSelected) view.selection->clear();
+    if (hidden.isSelected && !isDrawnNext(*view.selection, getNestedCallback())) view.selection->hold();
     if (hidden.isSelected) tellOthers(view, hidden);
     if (hidden.eye) view.eye = &*hidden.eye;
     if (hidden.fileEye) view.fileEye = &*hidden.fileEye;
