@@ -204,8 +204,7 @@ RealRange sampledDistanceRange(const core::Ellipsoid& ellipsoid, const core::Geo
         step[i] = (static_cast<Real>(box[i].upper) - box[i].lower) / counts[i];
     }
     RealRange range{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
-    // Climbing starts at the best position of every parallel: from a pole, where longitude means nothing, none leads
-    // away.
+    // Climbing starts at the best position of every parallel: from a pole, where longitude means nothing, none leads.
     for (int i = 0; i <= counts[0]; ++i) {
         RealRange ofParallel{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
         std::array<Real, 3> lowest{};

@@ -34,8 +34,7 @@ struct View {
 /// Whether the convex hull of the bin meets the frustum, by libccd's GJK. What lies behind the whole bin is cut off.
 [[nodiscard]] bool hullsMeet(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, const View& view);
 
-/// Whether the segment misses the ellipsoid scaled by 1 - depth / smaller radius (for negative depths: larger),
-/// exactly.
+/// Whether the segment misses the ellipsoid scaled by 1 - depth / smaller radius (negative depths: larger), exactly.
 [[nodiscard]] bool segmentMissesOccluder(const core::Ellipsoid& ellipsoid, double depth, const RealVector& from,
                                          const RealVector& to) noexcept;
 
@@ -49,8 +48,7 @@ struct View {
 /// Just above the occluder, near the ground, over a pole, in orbit, up to 1e9 m away; seldom inside.
 [[nodiscard]] glm::dvec3 randomEye(Random& random, const core::Ellipsoid& ellipsoid, double depth) noexcept;
 
-/// A bin, a point of it or within the margin of one, and an eye that sees the point just past the occluder, or nearly
-/// does.
+/// A bin, a point of it or within its margin, and an eye that sees the point just past the occluder, or nearly so.
 struct LineOfSight {
     core::Ellipsoid ellipsoid;
     core::GeodeticBin bin;

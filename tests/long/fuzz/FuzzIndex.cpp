@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The file of an index, as it is and with a checksum that fits, which no fuzzer guesses: what is read can be written
-// and read again.
+// The file of an index, as it is and with a checksum that fits: what is read can be written and read again.
 
 #include "Fuzz.h"
 

@@ -105,8 +105,7 @@ public:
 
     [[nodiscard]] Painting paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
         osg::State& state = *_context->getState();
-        // OSG tells attributes, arrays and buffers apart by their addresses, which those of scenes that are gone had,
-        // too
+        // OSG tells attributes, arrays and buffers apart by addresses, which those of scenes that are gone had, too
         state.reset();
         // what is not the default would be taken for applied
         state.apply();

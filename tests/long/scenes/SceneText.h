@@ -9,8 +9,7 @@
 //     view eye=6878137,0,0 at=0,0,0 up=0,0,1 frustum=-0.2,0.2,-0.2,0.2,1,1e8
 //     expect spheres=52 bins=31      or: expect culled=20 (at least)
 //
-// Bars separate values, as in hook=tile|globe: each value makes a scene of its own, and several such fields make all
-// combinations.
+// Bars separate values, as in hook=tile|globe: each makes a scene of its own, several such fields all combinations.
 
 #pragma once
 

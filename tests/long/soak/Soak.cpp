@@ -161,8 +161,7 @@ private:
     }
 
     int verdict() {
-        // in percent of all that a flight holds, the pools that the warm-up fills left out; without a viewer next to
-        // nothing is left
+        // in percent of all that a flight holds, without the pools that the warm-up fills; without a viewer hardly any
         const double whole = median(_cold.objects);
         const double station = growthPercent(_stations.objects, whole);
         const double end = growthPercent(_ends.objects, whole);

@@ -3,8 +3,7 @@
 //
 // The callback in a real osgUtil::CullVisitor without a window, what is counted there, and what becomes of an
 // osg::ClusterCullingCallback meanwhile. Oracles: the set of tiles that the traversal reaches; relations (a moved
-// globe, a local frame). That no tile is culled that is seen: ProjectionTest.cpp. The verdict against a single plane:
-// core/.
+// globe, a local frame). That no tile is culled that is seen: ProjectionTest.cpp. Verdicts on single planes: core/.
 
 #include "KitTest.h"
 

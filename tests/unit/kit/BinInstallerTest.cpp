@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What the installer does to a scene graph, and what tiles of which heights are declared alone are culled by. That the
-// tiles it treats are culled rightly is tested in AnalyticBinCullCallbackTest.cpp; what it does to paged files in
-// PagingTest.cpp.
+// What the installer does to a scene graph, and what tiles of which heights are declared alone are culled by. Whether
+// its tiles are culled rightly: AnalyticBinCullCallbackTest.cpp; what it does to paged files: PagingTest.cpp.
 
 #include "KitTest.h"
 #include "PagedFlight.h"

@@ -194,8 +194,7 @@ TEST(Projections, ATiltedNearPlaneCutsTheGlobeOpenAtOneSide) {
     }
 }
 
-// Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
-// differ.
+// Two orthographic cameras that share side planes and view matrix see different things if their near planes differ.
 TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     CameraGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::Group> scene = new osg::Group;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What osgbinbench makes of its figures: JSON, CSV, tables, diagrams, which need gnuplot to be drawn, and the three
-// sentences.
+// What osgbinbench makes of its figures: JSON, CSV, tables, diagrams (drawn by gnuplot), and the three sentences.
 
 #include "Failure.h"
 #include "Output.h"

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // All rasters as one: how borders of rasters inside coarser ones are blended, what heights are above, and how narrow
-// voids are filled. That bins hold what is made of it, and that updates know what changes, is tested on whole
-// databases.
+// voids are filled. Whether bins hold what is made of it, and what updates know, is tested on whole databases.
 
 #include "RasterTest.h"
 
