@@ -970,7 +970,7 @@ FAULTS = [
     Fault("selection: whoever is asked for files takes nothing away", "src/kit/cull/SelectionDrawing.cpp",
           "_visitor.getDatabaseRequestHandler() == _pager", "true", NODE, "Selection.*"),
     Fault("selection: nothing is held for callbacks behind the database's", "src/kit/database/DatabaseCallbacks.cpp",
-          "!isDrawnNext(*view.selection, getNestedCallback())", "isDrawnNext(*view.selection, nullptr)", NODE,
+          "!isDrawnNext(*view.selection, node, getNestedCallback())", "isDrawnNext(*view.selection, node, nullptr)", NODE,
           "Selection.*"),
     Fault("selection: nothing is held", "src/kit/cull/SelectionDrawing.cpp", "_selection.hold();", "", NODE, "Selection.*"),
     Fault("selection: masks that callbacks set are not asked", "src/kit/cull/SelectionDrawing.cpp",

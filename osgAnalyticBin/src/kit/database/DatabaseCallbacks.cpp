@@ -92,10 +92,10 @@ void takeOffUpdate(osg::Node& node, const osg::ref_ptr<osg::Callback>& update) {
     node.removeUpdateCallback(update.get());
 }
 
-// Whether the callback behind that of the database draws all that is selected, before code of the application's runs.
-bool isDrawnNext(const TileSelection& selection, const osg::Callback* next) {
-    const auto* const family = dynamic_cast<const TileFamily*>(next);
-    return family && !family->getNestedCallback() && selection.isAllBelow(*family);
+// Whether the callback behind the database's draws all that is selected, before any code of the application runs.
+bool isDrawnNext(const TileSelection& selection, const osg::Group& root, const osg::Callback* next) {
+    const TileFamily* const family = TileFamily::of(root);
+    return family && family == next && !family->getNestedCallback() && selection.isAllBelow(*family);
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                                     : findHidden(view, *_database, options, isAltered(nv.getNodePath()));
     // callbacks of the application's run before what is drawn is selected then
     if (!hidden.isSelected) view.selection->clear();
-    if (hidden.isSelected && !isDrawnNext(*view.selection, getNestedCallback())) view.selection->hold();
+    if (hidden.isSelected && !isDrawnNext(*view.selection, node, getNestedCallback())) view.selection->hold();
     if (hidden.isSelected) tellOthers(view, hidden);
     if (hidden.eye) view.eye = &*hidden.eye;
     if (hidden.fileEye) view.fileEye = &*hidden.fileEye;
