@@ -28,7 +28,7 @@ struct PlanarMap {
     double size = 64000.0;
     double heightUnit = 1.0;  // metres in a map unit
 
-    /// Metres, 0 to 2600, at a post of a tile of this width in map units. Only the finest tiles have peaks and pits.
+    /// Map units, 0 to 2600 metres, at a post of a tile of this width. Only the finest tiles have peaks and pits.
     [[nodiscard]] double height(double x, double y, double width) const {
         const double u = (x - origin.x()) / size;
         const double v = (y - origin.y()) / size;

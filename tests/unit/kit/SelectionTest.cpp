@@ -35,8 +35,7 @@ TEST(Selection, GoesOnWithoutAStateThatWasTakenAwayMeanwhile) {
     EXPECT_TRUE(globe.shows(tile));
 }
 
-// By the callback of a model, of the mesh of a tile that waits for its finer level, or of the root; or by who is asked
-// for the file.
+// By a callback of a model, of the mesh of a tile that waits for a file, or of the root; or by who is asked for it.
 TEST(Selection, HoldsWhatIsTakenAwayMeanwhile) {
     enum { Model, Mesh, Root, File };
     for (const int where : {Model, Mesh, Root, File}) {
@@ -61,7 +60,8 @@ TEST(Selection, HoldsWhatIsTakenAwayMeanwhile) {
         if (where == File) requests->action = takeAway;
         globe.visitor->setDatabaseRequestHandler(requests);
         EXPECT_TRUE(globe.shows(*globe.tiles[19]));
-        EXPECT_TRUE(isHeld && !last.valid());
+        EXPECT_TRUE(isHeld);
+        EXPECT_FALSE(last.valid());
     }
 }
 

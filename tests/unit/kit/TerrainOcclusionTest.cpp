@@ -170,7 +170,7 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     EXPECT_FALSE(pit.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 6000.0, 1e8);
     EXPECT_TRUE(pit.drawsFarTile(cutting));
-    // an oblique near plane that is so far on the left alone, of a view that reaches farther right; depths from 0
+    // an oblique near plane that is this far away on the left side only; the view reaches farther right; depths from 0
     const auto cutOnTheLeft = [&cutting](double distance) {
         cutting.projection = osg::Matrixd::frustum(-0.15, 1.0, -0.2, 0.2, 1.0, 1e8);
         const osg::Vec4d plane(3.0, 0.0, -1.0, -0.55 * distance);

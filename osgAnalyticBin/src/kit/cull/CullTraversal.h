@@ -59,7 +59,7 @@ struct DatabaseView {
     bool expectsHole = false;                     // as in the last view
     const core::HorizonEye* eye = nullptr;        // in ECEF, whatever transforms are below; null: nothing is hidden
     const core::HorizonEye* fileEye = nullptr;    // tiles behind its horizon ask for no files; null: all tiles ask
-    const osg::Referenced* pager = nullptr;       // that is asked for files, where it is of OSG's class
+    const osg::Referenced* pager = nullptr;       // OSG's own DatabasePager, where it is asked for files; else null
     Gain* gain = nullptr;                         // null: not counted in this view
     bool isCold = true;                           // what is read is hardly in the processor's caches
 };

@@ -88,7 +88,7 @@ public:
     [[nodiscard]] bool isDrawnWhole(const osg::NodeVisitor& visitor, const osg::CullSettings& settings,
                                     const StateRules& rules) const;
 
-    /// Whether OSG runs no code of the application's in the tile: it has only its own mesh, which is as it was.
+    /// Whether OSG runs none of the application's code in the tile: it has only its own mesh, which is as it was.
     [[nodiscard]] bool isMeshAlone(const osg::Node& tile, const osgUtil::CullVisitor& visitor) const;
 
     /// Prefetches the tile's node, and what the walk read when it last came there.

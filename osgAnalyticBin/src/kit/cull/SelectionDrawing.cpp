@@ -168,7 +168,7 @@ private:
         enter(kept);
     }
 
-    // Whether OSG runs no code of the application's in the node: a tile where it does nothing but ask for a file.
+    // Whether OSG runs none of the application's code in the node: it draws the tile's mesh and may ask for a file.
     [[nodiscard]] bool isOsgAlone(const TileSelection::Kept& kept) const {
         if (kept.way != Way::Untested || !kept.member->isMeshAlone(*kept.node, *_cullVisitor)) return false;
         return kept.waits || _visitor.getDatabaseRequestHandler() == _pager;

@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    // Bins are those of the terrain before it is exaggerated. So is what is known of osgTerrain tiles, and nothing
-    // else.
+    // Bins, and what is known of osgTerrain tiles, are those of the terrain before it is exaggerated; other content is
+    // measured as it is drawn.
     [[nodiscard]] bool isOfSameShape(const std::optional<TerrainShape>& shape) const {
         if (!_isTerrain) return !shape || shape->verticalScale == 1.0;
         if (!shape) return false;

@@ -34,8 +34,8 @@ struct MeshState {
 /// A hash that changes when a transform is moved; 0 for other nodes.
 [[nodiscard]] std::uint64_t frameOf(const osg::Node& node);
 
-/// A tile of osgTerrain. Returns: nullptr for other nodes. Models may have thousands of nodes: it is quick for classes
-/// that most nodes are of.
+/// A tile of osgTerrain. Returns: nullptr for other nodes. Quick for the most common classes, because models may have
+/// thousands of nodes.
 [[nodiscard]] const osgTerrain::TerrainTile* asTerrain(const osg::Node& node);
 
 /// Visits the nodes of a mesh. Tiles inside look after themselves; a terrain tile draws nothing of what is below it.
