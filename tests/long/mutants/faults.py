@@ -974,7 +974,7 @@ FAULTS = [
           "Selection.*"),
     Fault("selection: nothing is held", "src/kit/cull/SelectionDrawing.cpp", "_selection.hold();", "", NODE, "Selection.*"),
     Fault("selection: masks that callbacks set are not asked", "src/kit/cull/SelectionDrawing.cpp",
-          "if (_isEntered && isMasked(kept)) return;", "(void)&SelectionDrawing::isMasked;", SCENES, f"{NAMED}/meddling-masks.scene"),
+          "if (_selection.isHeld() && isMasked(kept)) return;", "(void)&SelectionDrawing::isMasked;", SCENES, f"{NAMED}/meddling-masks.scene"),
     Fault("selection: masks of the nodes above are not asked", "src/kit/cull/SelectionDrawing.cpp",
           "_isLastMasked = _isLastMasked || !_visitor.validNodeMask(*_selection.places()[at].node);", ";", SCENES, f"{NAMED}/meddling-masks.scene"),
     Fault("selection: states are those of the nodes", "src/kit/cull/SelectionDrawing.cpp",
